@@ -1,0 +1,51 @@
+#pragma once
+// Assembly: the free cup is pushed onto the wave generator. Find wall forces p ≥ 0 along the contact normals with
+//
+//     gap(w, v) ≥ 0,   p · gap = 0,   (w, v) = G N p      (G: free cup, small displacements; N: normals at (w, v))
+//
+// where the gap is the exact distance of the displaced wall point to the rigid surface. Newton around the LCP: with the
+// normals of the last state, gap ≈ gap₀ + N·Δ(w, v), M = NᵀGN; it starts from the undeformed wall and ends when the
+// exact gap of the new state equals the linear one to `tolerance_mm`. Nothing depends on any evaluation before.
+//
+// The wave generator pushes the wall outwards only; where the cone of the cup lifts the wall off, the force is zero.
+
+#include "model/contact/lcp.hpp"
+#include "model/contact/ring_compliance.hpp"
+#include "model/contact/wave_generator_surface.hpp"
+#include "model/gear/outcome.hpp"
+
+#include <vector>
+
+namespace strainwave {
+
+struct AssembledState {
+  std::vector<WallStation> stations;
+  Eigen::MatrixX2d normal;       ///< contact normals (radial, circumferential) at the assembled state
+  Eigen::VectorXd force_n;       ///< along the normals, ≥ 0
+  Eigen::MatrixX2d displacement; ///< (w outwards, v towards larger φ), mm
+  Eigen::VectorXd gap_mm;        ///< exact
+  ActiveSet active;
+  Eigen::MatrixXd compliance;    ///< NᵀGN of all stations, mm/N
+
+  double disc_force_n = 0.0;        ///< resultant of one lobe along the major axis
+  double contact_lo_rad = 0.0;      ///< outermost stations of the lobe around φ = 0 that carry force
+  double contact_hi_rad = 0.0;
+  int newton_steps = 0;
+  double newton_change_mm = 0.0;    ///< last change between exact and linear gap
+
+  /// Forces as (radial, circumferential) components, N.
+  Eigen::MatrixX2d force_components() const;
+};
+
+struct AssemblyOptions {
+  double tolerance_mm = 1e-12;
+  int max_newton_steps = 40;
+};
+
+Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGeneratorSurface& surface, double phase,
+                                 ContactSolver& solver, const AssemblyOptions& options = {});
+
+/// Resultants (major axis, minor axis) of wall forces over the lobe around φ = 0, N.
+Eigen::Vector2d wall_resultant(const std::vector<WallStation>& stations, const Eigen::MatrixX2d& force_components);
+
+} // namespace strainwave

@@ -1,0 +1,146 @@
+#include "model/contact/load_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace strainwave {
+
+namespace {
+
+Eigen::VectorXd along_normal(const Eigen::MatrixX2d& normal, const Eigen::MatrixX2d& vectors) {
+  return (normal.array() * vectors.array()).rowwise().sum();
+}
+
+/// Teeth's share of the problem that does not depend on the wall: c cos α′ and R cos α′.
+void set_tooth_gaps(std::span<const LoadedTooth> teeth, ContactProblem& problem) {
+  for (std::size_t i = 0; i < teeth.size(); ++i) {
+    const double cosine = std::cos(teeth[i].pressure_angle_rad);
+    problem.q(static_cast<Eigen::Index>(i)) = teeth[i].backlash_mm * cosine;
+    problem.r(static_cast<Eigen::Index>(i)) = teeth[i].contact_radius_mm * cosine;
+  }
+}
+
+} // namespace
+
+std::vector<ToothFunctional> tooth_functionals(const RingCompliance& ring, std::span<const LoadedTooth> teeth) {
+  std::vector<ToothFunctional> result;
+  result.reserve(teeth.size());
+  for (const LoadedTooth& tooth : teeth) {
+    // F > 0 pushes towards smaller φ and inwards: minus the functional's own direction, turned at the use.
+    result.push_back(ring.tooth(tooth.tooth, tooth.contact_radius_mm, std::cos(tooth.pressure_angle_rad),
+                                -std::sin(tooth.pressure_angle_rad)));
+  }
+  return result;
+}
+
+Eigen::MatrixXd frozen_compliance(const RingCompliance& ring, const AssembledState& assembled,
+                                  std::span<const ToothFunctional> teeth) {
+  std::vector<WallStation> closed;
+  std::vector<Eigen::Index> at;
+  for (std::size_t i = 0; i < assembled.active.size(); ++i) {
+    if (!assembled.active[i]) continue;
+    closed.push_back(assembled.stations[i]);
+    at.push_back(static_cast<Eigen::Index>(i));
+  }
+  const Eigen::MatrixX2d normal = assembled.normal(at, Eigen::all);
+  Eigen::MatrixXd d = ring.tooth_tooth(teeth);
+  if (closed.empty()) return d;
+  const Eigen::MatrixXd wall = assembled.compliance(at, at);
+  const Eigen::LLT<Eigen::MatrixXd> factor(wall);
+  // D = G_tt − YᵀY with Y = L⁻¹ G_wt: symmetric by construction.
+  const Eigen::MatrixXd y = factor.matrixL().solve(ring.wall_tooth(closed, normal, teeth));
+  d.selfadjointView<Eigen::Lower>().rankUpdate(y.transpose(), -1.0);
+  d.triangularView<Eigen::StrictlyUpper>() = d.transpose();
+  return d;
+}
+
+LoadProblem linear_problem(const RingCompliance& ring, const AssembledState& assembled,
+                           std::span<const LoadedTooth> teeth) {
+  LoadProblem load;
+  load.teeth = tooth_functionals(ring, teeth);
+  load.tooth_count = static_cast<int>(teeth.size());
+  load.lobes = ring.folded() ? 2.0 : 1.0;
+  load.problem.m = frozen_compliance(ring, assembled, load.teeth);
+  load.problem.q.resize(load.tooth_count);
+  load.problem.r.resize(load.tooth_count);
+  set_tooth_gaps(teeth, load.problem);
+  return load;
+}
+
+LoadProblem unilateral_problem(const RingCompliance& ring, const AssembledState& assembled,
+                               std::span<const LoadedTooth> teeth) {
+  LoadProblem load;
+  load.teeth = tooth_functionals(ring, teeth);
+  load.tooth_count = static_cast<int>(teeth.size());
+  load.lobes = ring.folded() ? 2.0 : 1.0;
+  const Eigen::Index n = load.tooth_count;
+  const Eigen::Index m = assembled.force_n.size();
+  ContactProblem& problem = load.problem;
+  problem.m.resize(n + m, n + m);
+  problem.m.topLeftCorner(n, n) = ring.tooth_tooth(load.teeth);
+  const Eigen::MatrixXd wall_tooth = ring.wall_tooth(assembled.stations, assembled.normal, load.teeth);
+  problem.m.bottomLeftCorner(m, n) = -wall_tooth;
+  problem.m.topRightCorner(n, m) = -wall_tooth.transpose();
+  problem.m.bottomRightCorner(m, m) = assembled.compliance;
+  problem.q.resize(n + m);
+  problem.r.setZero(n + m);
+  set_tooth_gaps(teeth, problem);
+  // d(assembly) = −G_tw p(assembly), towards smaller φ.
+  problem.q.head(n) += wall_tooth.transpose() * assembled.force_n;
+  problem.q.tail(m) = assembled.gap_mm - along_normal(assembled.normal, assembled.displacement);
+  return load;
+}
+
+Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGeneratorSurface& surface,
+                                        const AssembledState& assembled, const LoadProblem& load,
+                                        const ContactState& start, Control control, ContactSolver& solver) {
+  constexpr double tolerance_mm = 1e-11;
+  constexpr int max_steps = 30;
+  const Eigen::Index n = load.tooth_count;
+  const Eigen::Index m = assembled.force_n.size();
+
+  // Tooth displacement by assembly does not change with the load; rows of q for the teeth are kept, wall rows are made anew.
+  Eigen::VectorXd tooth_gap = load.problem.q.head(n);
+  ExactLoad result;
+  result.state = start;
+  ContactProblem problem = load.problem;
+  Eigen::MatrixX2d normal = assembled.normal;
+  for (int step = 0; step <= max_steps; ++step) {
+    const Eigen::VectorXd wall = result.state.force.tail(m);
+    result.wall_force = normal.array().colwise() * wall.array();
+    const Eigen::MatrixX2d u = ring.wall_displacement(assembled.stations, assembled.stations, result.wall_force,
+                                                      load.teeth, -result.state.force.head(n));
+    Eigen::VectorXd gap(m);
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const WallStation& s = assembled.stations[static_cast<std::size_t>(i)];
+      const WallGap g = surface.gap(s.phi_rad, s.z_mm, u(i, 0), u(i, 1));
+      gap(i) = g.gap_mm;
+      normal(i, 0) = g.radial;
+      normal(i, 1) = g.circumferential;
+    }
+    result.residual_mm = (gap - result.state.gap.tail(m)).cwiseAbs().maxCoeff();
+    result.newton_steps = step;
+    if (result.residual_mm < tolerance_mm) break;
+    if (step == max_steps) {
+      return Failure{Status::not_converged,
+                     fmt::format("the loaded wall contact did not converge: the exact gap still differs by {:.3g} mm "
+                                 "after {} Newton steps",
+                                 result.residual_mm, max_steps)};
+    }
+    problem.m.bottomRightCorner(m, m) = ring.wall_wall(assembled.stations, normal);
+    const Eigen::MatrixXd wall_tooth = ring.wall_tooth(assembled.stations, normal, load.teeth);
+    problem.m.bottomLeftCorner(m, n) = -wall_tooth;
+    problem.m.topRightCorner(n, m) = -wall_tooth.transpose();
+    problem.q.head(n) = tooth_gap;
+    problem.q.tail(m) = gap - along_normal(normal, u);
+    result.state = control == Control::torque ? solver.solve_torque(problem, start.torque, &result.state.active)
+                                              : solver.solve_at(problem, start.rotation, &result.state.active);
+  }
+  result.correction_rotation_rad = result.state.rotation - start.rotation;
+  result.correction_force_n =
+      n > 0 ? (result.state.force.head(n) - start.force.head(n)).cwiseAbs().maxCoeff() : 0.0;
+  return result;
+}
+
+} // namespace strainwave

@@ -1,0 +1,64 @@
+#pragma once
+// The loaded pair as one LCP about the assembled state (physics: F and tooth displacements positive towards smaller φ,
+// wall forces p along the contact normals):
+//
+//   linear       gap_i = c_i + (D F)_i − R_i θ,   D = G_tt − G_tw G_ww⁻¹ G_wt over the wall stations that assembly closed:
+//                the discs stay in contact there, even in tension.
+//   unilateral   unknowns F and p together:  d = G_tt F − G_tw p,   gap_i = c_i + d_i − d_i(assembly) − R_i θ,
+//                wall: gap_j = gap_j(assembly) + n_j · (u_j − u_j(assembly)),   u = G_ww p − G_wt F.
+//
+// With a force along the flank normal (local pressure angle α′ of the contact) F is the normal force: it loads cos α′
+// circumferentially and sin α′ inwards, the gap is c cos α′ and the lever arm R cos α′, so that D stays symmetric.
+// Torque = lobes · Σ F_i arm_i.
+
+#include "model/contact/assembly.hpp"
+
+#include <vector>
+
+namespace strainwave {
+
+/// One tooth that may carry load.
+struct LoadedTooth {
+  int tooth = 0; ///< material index; its sector
+  double phi_rad = 0.0;
+  double backlash_mm = 0.0;          ///< c, circumferential; negative: interference
+  double contact_radius_mm = 0.0;    ///< R
+  double pressure_angle_rad = 0.0;   ///< α′; 0: circumferential force
+};
+
+struct LoadProblem {
+  ContactProblem problem;             ///< teeth first, then (unilateral) wall stations
+  std::vector<ToothFunctional> teeth; ///< towards larger φ and, with α′, inwards
+  int tooth_count = 0;
+  double lobes = 2.0;                 ///< torque = lobes · r · z
+};
+
+/// Compliance of the teeth on the discs with the assembled contact frozen (held both ways), mm/N.
+Eigen::MatrixXd frozen_compliance(const RingCompliance& ring, const AssembledState& assembled,
+                                  std::span<const ToothFunctional> teeth);
+
+std::vector<ToothFunctional> tooth_functionals(const RingCompliance& ring, std::span<const LoadedTooth> teeth);
+
+LoadProblem linear_problem(const RingCompliance& ring, const AssembledState& assembled,
+                           std::span<const LoadedTooth> teeth);
+LoadProblem unilateral_problem(const RingCompliance& ring, const AssembledState& assembled,
+                               std::span<const LoadedTooth> teeth);
+
+/// A load state corrected to the exact gap by Newton steps around the LCP: at constant torque (drive = true keeps
+/// torque) or constant rotation.
+struct ExactLoad {
+  ContactState state;
+  int newton_steps = 0;
+  double correction_rotation_rad = 0.0; ///< θ(exact) − θ(linearised gaps), at given torque
+  double correction_force_n = 0.0;      ///< largest change of a tooth force
+  double residual_mm = 0.0;             ///< exact wall gap minus the LCP's, largest
+  Eigen::MatrixX2d wall_force;          ///< components (radial, circumferential), N
+};
+
+enum class Control { rotation, torque };
+
+Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGeneratorSurface& surface,
+                                        const AssembledState& assembled, const LoadProblem& load,
+                                        const ContactState& start, Control control, ContactSolver& solver);
+
+} // namespace strainwave

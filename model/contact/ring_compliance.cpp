@@ -1,0 +1,240 @@
+#include "model/contact/ring_compliance.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace strainwave {
+
+std::vector<std::pair<int, double>> lagrange_weights(std::span<const double> nodes, double x) {
+  const int n = static_cast<int>(nodes.size());
+  assert(n > 0);
+  const int width = std::min(n, 4);
+  const int above = static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), x) - nodes.begin());
+  if (above < n && nodes[static_cast<std::size_t>(above)] == x) return {{above, 1.0}};
+  const int first = std::clamp(above - width / 2, 0, n - width);
+  std::vector<std::pair<int, double>> weights;
+  for (int i = first; i < first + width; ++i) {
+    double weight = 1.0;
+    for (int j = first; j < first + width; ++j) {
+      if (j == i) continue;
+      const auto a = static_cast<std::size_t>(i);
+      const auto b = static_cast<std::size_t>(j);
+      weight *= (x - nodes[b]) / (nodes[a] - nodes[b]);
+    }
+    weights.emplace_back(i, weight);
+  }
+  return weights;
+}
+
+RingCompliance::RingCompliance(const UnitResponses& responses, std::vector<double> rows_mm, bool fold)
+    : responses_(&responses), rows_(std::move(rows_mm)), period_(fold ? responses.sectors / 2 : responses.sectors) {
+  assert(!fold || responses.sectors % 2 == 0);
+  const int n = responses.count();
+  const auto block = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto stored = [&](int k) {
+    return Eigen::Map<const RowMajor>(responses.data.data() + block * static_cast<std::size_t>(k), n, n);
+  };
+
+  // P: from interpolated wall points (station, row, direction) to the functionals of the responses.
+  const int stations = static_cast<int>(responses.wall_offset.size());
+  const int rows = static_cast<int>(rows_.size());
+  Eigen::MatrixXd p = Eigen::MatrixXd::Zero(n, 2 * stations * rows);
+  for (int station = 0; station < stations; ++station) {
+    for (int row = 0; row < rows; ++row) {
+      for (const auto& [at, weight] : lagrange_weights(responses.wall_z_mm, rows_[static_cast<std::size_t>(row)])) {
+        for (int direction = 0; direction < 2; ++direction) {
+          p(responses.wall(station, at, direction), 2 * (station * rows + row) + direction) = weight;
+        }
+      }
+    }
+  }
+  for (int k = 0; k < period_; ++k) {
+    Eigen::MatrixXd g = stored(k);
+    if (fold) g += stored(k + period_);
+    wall_all_.push_back(p.transpose() * g);
+    wall_wall_.push_back(wall_all_.back() * p);
+    all_.push_back(std::move(g));
+  }
+}
+
+std::vector<WallStation> RingCompliance::stations(double phase) const {
+  const double pitch = 2.0 * std::numbers::pi / sectors();
+  const double half = folded() ? std::numbers::pi / 2 : std::numbers::pi;
+  std::vector<WallStation> result;
+  for (int k = -period_; k <= period_; ++k) {
+    for (int station = 0; station < static_cast<int>(responses_->wall_offset.size()); ++station) {
+      const double phi = pitch * (k + responses_->wall_offset[static_cast<std::size_t>(station)] + phase);
+      if (phi <= -half + 1e-12 || phi > half + 1e-12) continue;
+      for (int row = 0; row < static_cast<int>(rows_.size()); ++row) {
+        result.push_back({k, station, row, phi, rows_[static_cast<std::size_t>(row)]});
+      }
+    }
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const WallStation& a, const WallStation& b) { return a.phi_rad < b.phi_rad; });
+  return result;
+}
+
+ToothFunctional RingCompliance::tooth(int sector, double radius_mm, double circumferential, double inwards) const {
+  const std::vector<double>& heights = responses_->flank_radius_mm;
+  const int slices = static_cast<int>(responses_->flank_z_mm.size());
+  assert(!heights.empty());
+  const double radius = std::clamp(radius_mm, heights.front(), heights.back());
+  std::vector<std::pair<int, double>> levels;
+  if (heights.size() == 1) {
+    levels = {{0, 1.0}};
+  } else {
+    int upper = static_cast<int>(std::upper_bound(heights.begin(), heights.end(), radius) - heights.begin());
+    upper = std::clamp(upper, 1, static_cast<int>(heights.size()) - 1);
+    const double lo = heights[static_cast<std::size_t>(upper - 1)];
+    const double hi = heights[static_cast<std::size_t>(upper)];
+    const double share = (radius - lo) / (hi - lo);
+    levels = {{upper - 1, 1.0 - share}, {upper, share}};
+  }
+  ToothFunctional result{sector, {}};
+  for (const auto& [level, weight] : levels) {
+    for (int slice = 0; slice < slices; ++slice) {
+      const double part = weight / slices;
+      if (part == 0.0) continue;
+      if (circumferential != 0.0) {
+        result.weights.emplace_back(responses_->flank(level, slice, UnitResponses::circumferential),
+                                    circumferential * part);
+      }
+      if (inwards != 0.0) {
+        result.weights.emplace_back(responses_->flank(level, slice, UnitResponses::radial), -inwards * part);
+      }
+    }
+  }
+  return result;
+}
+
+Eigen::MatrixXd RingCompliance::wall_wall(std::span<const WallStation> stations, const Eigen::MatrixX2d& normal) const {
+  const auto n = static_cast<Eigen::Index>(stations.size());
+  Eigen::MatrixXd result(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const WallStation& load = stations[static_cast<std::size_t>(j)];
+    const int b = wall_index(load);
+    for (Eigen::Index i = j; i < n; ++i) {
+      const WallStation& at = stations[static_cast<std::size_t>(i)];
+      const Eigen::MatrixXd& g = wall_wall_[static_cast<std::size_t>(wrapped(at.sector - load.sector))];
+      const int a = wall_index(at);
+      // wall functionals come as (circumferential, radial)
+      const double value = normal(i, 0) * (g(a + 1, b + 1) * normal(j, 0) + g(a + 1, b) * normal(j, 1)) +
+                           normal(i, 1) * (g(a, b + 1) * normal(j, 0) + g(a, b) * normal(j, 1));
+      result(i, j) = value;
+      result(j, i) = value;
+    }
+  }
+  return result;
+}
+
+Eigen::MatrixXd RingCompliance::wall_tooth(std::span<const WallStation> stations, const Eigen::MatrixX2d& normal,
+                                           std::span<const ToothFunctional> teeth) const {
+  Eigen::MatrixXd result(static_cast<Eigen::Index>(stations.size()), static_cast<Eigen::Index>(teeth.size()));
+  for (Eigen::Index j = 0; j < result.cols(); ++j) {
+    const ToothFunctional& tooth = teeth[static_cast<std::size_t>(j)];
+    for (Eigen::Index i = 0; i < result.rows(); ++i) {
+      const WallStation& at = stations[static_cast<std::size_t>(i)];
+      const Eigen::MatrixXd& g = wall_all_[static_cast<std::size_t>(wrapped(at.sector - tooth.sector))];
+      const int a = wall_index(at);
+      double sum = 0.0;
+      for (const auto& [b, weight] : tooth.weights) {
+        sum += weight * (normal(i, 0) * g(a + 1, b) + normal(i, 1) * g(a, b));
+      }
+      result(i, j) = sum;
+    }
+  }
+  return result;
+}
+
+Eigen::MatrixXd RingCompliance::tooth_tooth(std::span<const ToothFunctional> teeth) const {
+  const auto n = static_cast<Eigen::Index>(teeth.size());
+  Eigen::MatrixXd result(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const ToothFunctional& load = teeth[static_cast<std::size_t>(j)];
+    for (Eigen::Index i = j; i < n; ++i) {
+      const ToothFunctional& at = teeth[static_cast<std::size_t>(i)];
+      const Eigen::MatrixXd& g = all_[static_cast<std::size_t>(wrapped(at.sector - load.sector))];
+      double sum = 0.0;
+      for (const auto& [a, weight_a] : at.weights) {
+        for (const auto& [b, weight_b] : load.weights) sum += weight_a * weight_b * g(a, b);
+      }
+      result(i, j) = sum;
+      result(j, i) = sum;
+    }
+  }
+  return result;
+}
+
+Eigen::MatrixX2d RingCompliance::wall_displacement(std::span<const WallStation> at, std::span<const WallStation> loaded,
+                                                   const Eigen::MatrixX2d& wall_force,
+                                                   std::span<const ToothFunctional> teeth,
+                                                   const Eigen::VectorXd& tooth_force) const {
+  Eigen::MatrixX2d result = Eigen::MatrixX2d::Zero(static_cast<Eigen::Index>(at.size()), 2);
+  for (Eigen::Index i = 0; i < result.rows(); ++i) {
+    const WallStation& point = at[static_cast<std::size_t>(i)];
+    const int a = wall_index(point);
+    double w = 0.0;
+    double v = 0.0;
+    for (Eigen::Index j = 0; j < wall_force.rows(); ++j) {
+      if (wall_force(j, 0) == 0.0 && wall_force(j, 1) == 0.0) continue;
+      const WallStation& load = loaded[static_cast<std::size_t>(j)];
+      const Eigen::MatrixXd& g = wall_wall_[static_cast<std::size_t>(wrapped(point.sector - load.sector))];
+      const int b = wall_index(load);
+      w += g(a + 1, b + 1) * wall_force(j, 0) + g(a + 1, b) * wall_force(j, 1);
+      v += g(a, b + 1) * wall_force(j, 0) + g(a, b) * wall_force(j, 1);
+    }
+    for (Eigen::Index j = 0; j < tooth_force.size(); ++j) {
+      if (tooth_force(j) == 0.0) continue;
+      const ToothFunctional& tooth = teeth[static_cast<std::size_t>(j)];
+      const Eigen::MatrixXd& g = wall_all_[static_cast<std::size_t>(wrapped(point.sector - tooth.sector))];
+      for (const auto& [b, weight] : tooth.weights) {
+        w += g(a + 1, b) * weight * tooth_force(j);
+        v += g(a, b) * weight * tooth_force(j);
+      }
+    }
+    result(i, 0) = w;
+    result(i, 1) = v;
+  }
+  return result;
+}
+
+Eigen::MatrixX4d RingCompliance::section(std::span<const int> at_sectors, double z_mm,
+                                         std::span<const WallStation> loaded, const Eigen::MatrixX2d& wall_force,
+                                         std::span<const ToothFunctional> teeth,
+                                         const Eigen::VectorXd& tooth_force) const {
+  assert(!responses_->section_z_mm.empty());
+  const auto along = lagrange_weights(responses_->section_z_mm, z_mm);
+  Eigen::MatrixX4d result = Eigen::MatrixX4d::Zero(static_cast<Eigen::Index>(at_sectors.size()), 4);
+  for (Eigen::Index i = 0; i < result.rows(); ++i) {
+    const int sector = at_sectors[static_cast<std::size_t>(i)];
+    const auto add = [&](int b, double force, const Eigen::MatrixXd& g, bool wall) {
+      for (const auto& [row, weight] : along) {
+        for (int quantity = 0; quantity < 4; ++quantity) {
+          const int a = responses_->section(row, quantity);
+          // wall_all_ holds wall ← functional; reciprocity gives functional ← wall with the opposite offset.
+          result(i, quantity) += weight * force * (wall ? g(b, a) : g(a, b));
+        }
+      }
+    };
+    for (Eigen::Index j = 0; j < wall_force.rows(); ++j) {
+      const WallStation& load = loaded[static_cast<std::size_t>(j)];
+      const Eigen::MatrixXd& g = wall_all_[static_cast<std::size_t>(wrapped(load.sector - sector))];
+      const int b = wall_index(load);
+      if (wall_force(j, 0) != 0.0) add(b + 1, wall_force(j, 0), g, true);
+      if (wall_force(j, 1) != 0.0) add(b, wall_force(j, 1), g, true);
+    }
+    for (Eigen::Index j = 0; j < tooth_force.size(); ++j) {
+      if (tooth_force(j) == 0.0) continue;
+      const ToothFunctional& tooth = teeth[static_cast<std::size_t>(j)];
+      const Eigen::MatrixXd& g = all_[static_cast<std::size_t>(wrapped(sector - tooth.sector))];
+      for (const auto& [b, weight] : tooth.weights) add(b, weight * tooth_force(j), g, false);
+    }
+  }
+  return result;
+}
+
+} // namespace strainwave

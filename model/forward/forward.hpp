@@ -1,0 +1,39 @@
+#pragma once
+// The forward model: the stages in order, each a pure function of what it is handed, with reuse by content.
+//
+//     kinematics → backlash ───────────────────────────────┐
+//     flexspline (finite elements, on disk by content) ────┤
+//                → assembly → compliance ──────────────────┴→ load → responses
+//
+// One ForwardModel may be used by several threads; analyses share what they have computed. Results depend on the gear
+// alone, never on what was analysed before.
+
+#include "model/forward/result.hpp"
+
+#include <filesystem>
+#include <memory>
+
+namespace strainwave {
+
+struct ForwardOptions {
+  bool disk_cache = true;  ///< unit responses on disk, in the XDG cache directory
+  int threads = 0;         ///< for the finite elements; 0: all cores
+};
+
+class ForwardModel {
+public:
+  explicit ForwardModel(ForwardOptions options = {});
+  ~ForwardModel();
+  ForwardModel(const ForwardModel&) = delete;
+  ForwardModel& operator=(const ForwardModel&) = delete;
+
+  /// Never throws for a gear that cannot be computed: status and message say why. Throws std::system_error and
+  /// std::bad_alloc for disk and memory.
+  ForwardResult analyze(const Gear& gear, Want want = Want::load);
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+} // namespace strainwave

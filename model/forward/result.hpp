@@ -1,0 +1,115 @@
+#pragma once
+// What a forward analysis returns, in the units of the surface: N, N·m, µm, mm, degrees, radians where named so.
+// Arrays run over teeth in ascending φ; angles of teeth lie in (−90°, 90°] of the first lobe (both lobes alike), or in
+// (−180°, 180°] when the lobes differ.
+
+#include "model/gear/gear.hpp"
+#include "model/gear/outcome.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace strainwave {
+
+/// What of a gear is wanted; whatever is not needed for it is skipped.
+enum class Want { backlash, compliance, load };
+
+struct WaveGeneratorResult {
+  double wrap_angle_deg = 0.0; ///< γ (two_disc), polar lift-off angle (two_disc_exact), 0 for cams
+  double disc_radius_mm = 0.0; ///< to the neutral line; 0 for cams
+  double eccentricity_mm = 0.0;
+  double u90_mm = 0.0;
+  std::string shape;
+};
+
+struct BacklashResult {
+  std::vector<int> tooth;
+  std::vector<double> phi_deg;
+  std::vector<double> backlash_um;       ///< drive flank; negative: interference; NaN where flanks do not overlap
+  std::vector<double> coast_backlash_um;
+  std::vector<double> contact_radius_mm; ///< NaN where flanks do not overlap
+  double min_um = 0.0;                   ///< over continuous φ
+  double min_phi_deg = 0.0;
+  bool interference = false;
+};
+
+struct AssemblyResult {
+  double contact_force_n = 0.0;      ///< resultant of one disc along the major axis
+  double contact_lo_deg = 0.0;
+  double contact_hi_deg = 0.0;
+  double radial_deformation_mm = 0.0; ///< inner wall at the major axis, mid face
+  int newton_steps = 0;
+};
+
+struct ComplianceResult {
+  std::vector<int> tooth;
+  std::vector<std::vector<double>> matrix_um_per_n; ///< contact frozen as assembled, both lobes loaded
+  double reciprocity_error = 0.0;
+};
+
+struct LoadResult {
+  Direction direction = Direction::drive;
+  double rotation_rad = 0.0; ///< of the phase with the largest tooth force
+  double torque_nm = 0.0;
+  std::vector<int> tooth;
+  std::vector<double> phi_deg;
+  std::vector<double> force_n;
+  std::vector<double> loaded_backlash_um;
+  int engaged_count = 0;
+  double engaged_lo_deg = 0.0;
+  double engaged_hi_deg = 0.0;
+  double peak_force_n = 0.0; ///< worst over teeth and phases
+  double peak_phi_deg = 0.0;
+  double peak_phase = 0.0;
+  double tangent_stiffness_nm_per_rad = 0.0;
+  double disc_force_n = 0.0;  ///< resultant on one disc along the major axis under this load; 0 for linear
+  std::optional<double> transmission_error_arcsec; ///< peak to peak over the phases of one pitch, at constant torque
+  double gap_correction_rotation_rad = 0.0; ///< exact disc gap against the linearised one
+  double gap_correction_force_n = 0.0;
+};
+
+struct StiffnessResult {
+  double secant_nm_per_rad = 0.0; ///< T_rated / wind-up(T_rated)
+  double lost_motion_arcmin = 0.0;
+  double take_up_rad = 0.0;
+  double wind_up_rad = 0.0;
+};
+
+/// Residuals that prove the result; see docs/certificate.md for their limits.
+struct Certificate {
+  double complementarity = 0.0;        ///< relative, worst of all solves
+  double min_gap_um = 0.0;
+  double min_force_n = 0.0;
+  double reciprocity = 0.0;            ///< of the unit responses, relative
+  double equilibrium = 0.0;            ///< displacements recomputed from the forces against the solver's gaps, relative
+  double discretisation_estimate = 0.0; ///< relative, of the largest tooth compliance
+  double exact_gap_residual_um = 0.0;  ///< disc gap after the Newton correction
+  bool holds() const;
+};
+
+enum class StageStatus { computed, reused, skipped };
+
+struct Stage {
+  std::string name;
+  double seconds = 0.0;
+  StageStatus status = StageStatus::skipped;
+};
+
+struct ForwardResult {
+  std::string gear;
+  Fidelity fidelity = Fidelity::unilateral;
+  Status status = Status::ok;
+  std::string message; ///< one sentence when there is something to say; also with status ok
+  std::vector<std::string> warnings; ///< for stderr: a damaged cache file and the like
+  std::optional<WaveGeneratorResult> wave_generator;
+  std::optional<BacklashResult> backlash;
+  std::optional<AssemblyResult> assembly;
+  std::optional<ComplianceResult> compliance;
+  std::vector<LoadResult> load;
+  std::optional<StiffnessResult> stiffness;
+  std::optional<Certificate> certificate;
+  std::vector<Stage> stages;
+};
+
+} // namespace strainwave

@@ -1,0 +1,159 @@
+#include "model/forward/result_file.hpp"
+
+#include "model/forward/result_json.hpp"
+#include "model/forward/version.hpp"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+#include <hdf5_hl.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace strainwave {
+
+namespace {
+
+/// One open group; datasets are written into it with their unit.
+class Group {
+public:
+  Group(hid_t parent, const std::string& name)
+      : id_(check(H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT))) {}
+  ~Group() { H5Gclose(id_); }
+  Group(const Group&) = delete;
+  Group& operator=(const Group&) = delete;
+  hid_t id() const { return id_; }
+
+  void put(const char* name, const char* unit, const std::vector<double>& values, std::vector<hsize_t> shape = {}) {
+    if (shape.empty()) shape = {values.size()};
+    check(H5LTmake_dataset_double(id_, name, static_cast<int>(shape.size()), shape.data(), values.data()));
+    check(H5LTset_attribute_string(id_, name, "units", unit));
+  }
+  void put(const char* name, const char* unit, double value) {
+    check(H5LTmake_dataset_double(id_, name, 0, nullptr, &value));
+    check(H5LTset_attribute_string(id_, name, "units", unit));
+  }
+  void put(const char* name, const std::vector<int>& values) {
+    const hsize_t size = values.size();
+    check(H5LTmake_dataset_int(id_, name, 1, &size, values.data()));
+    check(H5LTset_attribute_string(id_, name, "units", "1"));
+  }
+
+  template <class T>
+  static T check(T code) {
+    if (code < 0) throw std::system_error(EIO, std::generic_category(), "HDF5 refused to write the result file");
+    return code;
+  }
+
+private:
+  hid_t id_;
+};
+
+void text(hid_t file, const char* name, std::string_view value) {
+  Group::check(H5LTmake_dataset_string(file, name, std::string(value).c_str()));
+}
+
+void put_load(const LoadResult& load, Group& group) {
+  group.put("rotation", "rad", load.rotation_rad);
+  group.put("torque", "N.m", load.torque_nm);
+  group.put("coast", "1", load.direction == Direction::coast ? 1.0 : 0.0);
+  group.put("tooth", load.tooth);
+  group.put("phi", "deg", load.phi_deg);
+  group.put("force", "N", load.force_n);
+  group.put("loaded_backlash", "um", load.loaded_backlash_um);
+  group.put("engaged_phi", "deg", {load.engaged_lo_deg, load.engaged_hi_deg});
+  group.put("peak_force", "N", load.peak_force_n);
+  group.put("peak_phi", "deg", load.peak_phi_deg);
+  group.put("peak_phase", "1", load.peak_phase);
+  group.put("tangent_stiffness", "N.m/rad", load.tangent_stiffness_nm_per_rad);
+  group.put("disc_force", "N", load.disc_force_n);
+  if (load.transmission_error_arcsec) group.put("transmission_error", "arcsec", *load.transmission_error_arcsec);
+}
+
+void put_all(const ForwardResult& result, hid_t file) {
+  if (const auto& wg = result.wave_generator) {
+    Group group(file, "wave_generator");
+    group.put("wrap_angle", "deg", wg->wrap_angle_deg);
+    group.put("disc_radius", "mm", wg->disc_radius_mm);
+    group.put("eccentricity", "mm", wg->eccentricity_mm);
+    group.put("u90", "mm", wg->u90_mm);
+  }
+  if (const auto& b = result.backlash) {
+    Group group(file, "backlash");
+    group.put("tooth", b->tooth);
+    group.put("phi", "deg", b->phi_deg);
+    group.put("backlash", "um", b->backlash_um);
+    group.put("coast_backlash", "um", b->coast_backlash_um);
+    group.put("contact_radius", "mm", b->contact_radius_mm);
+    group.put("min", "um", b->min_um);
+    group.put("min_phi", "deg", b->min_phi_deg);
+  }
+  if (const auto& a = result.assembly) {
+    Group group(file, "assembly");
+    group.put("contact_force", "N", a->contact_force_n);
+    group.put("contact_phi", "deg", {a->contact_lo_deg, a->contact_hi_deg});
+    group.put("radial_deformation", "mm", a->radial_deformation_mm);
+  }
+  if (const auto& c = result.compliance) {
+    Group group(file, "compliance");
+    group.put("tooth", c->tooth);
+    std::vector<double> flat;
+    for (const auto& row : c->matrix_um_per_n) flat.insert(flat.end(), row.begin(), row.end());
+    group.put("matrix", "um/N", flat, {c->tooth.size(), c->tooth.size()});
+  }
+  if (!result.load.empty()) {
+    Group loads(file, "load");
+    for (std::size_t i = 0; i < result.load.size(); ++i) {
+      Group group(loads.id(), fmt::format("{:04}", i));
+      put_load(result.load[i], group);
+    }
+  }
+  if (const auto& s = result.stiffness) {
+    Group group(file, "stiffness");
+    group.put("secant", "N.m/rad", s->secant_nm_per_rad);
+    group.put("lost_motion", "arcmin", s->lost_motion_arcmin);
+    group.put("take_up", "rad", s->take_up_rad);
+    group.put("wind_up", "rad", s->wind_up_rad);
+  }
+  if (const auto& c = result.certificate) {
+    Group group(file, "certificate");
+    group.put("complementarity", "1", c->complementarity);
+    group.put("min_gap", "um", c->min_gap_um);
+    group.put("min_force", "N", c->min_force_n);
+    group.put("reciprocity", "1", c->reciprocity);
+    group.put("equilibrium", "1", c->equilibrium);
+    group.put("exact_gap_residual", "um", c->exact_gap_residual_um);
+    group.put("discretisation_estimate", "1", c->discretisation_estimate);
+  }
+}
+
+} // namespace
+
+void write_result_file(const ForwardResult& result, const std::string& config, const std::filesystem::path& path) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // errors are reported by exception, not printed
+  const std::filesystem::path beside = path.string() + ".part";
+  errno = 0;
+  const hid_t file = H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  if (file < 0) {
+    throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(),
+                            fmt::format("cannot write {}", path.string()));
+  }
+  try {
+    text(file, "config", config);
+    text(file, "version", version);
+    text(file, "status", status_name(result.status));
+    text(file, "message", result.message);
+    text(file, "fidelity", name(result.fidelity));
+    put_all(result, file);
+    Group::check(H5Fflush(file, H5F_SCOPE_GLOBAL));
+  } catch (...) {
+    H5Fclose(file);
+    std::error_code ignored;
+    std::filesystem::remove(beside, ignored);
+    throw;
+  }
+  Group::check(H5Fclose(file));
+  std::filesystem::rename(beside, path);
+}
+
+} // namespace strainwave

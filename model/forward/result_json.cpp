@@ -1,0 +1,138 @@
+#include "model/forward/result_json.hpp"
+
+#include "model/forward/version.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace strainwave {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view name(Fidelity fidelity) {
+  switch (fidelity) {
+  case Fidelity::unilateral: return "unilateral";
+  case Fidelity::linear: return "linear";
+  case Fidelity::nonlinear: return "nonlinear";
+  }
+  return "unknown";
+}
+
+std::string_view name(Direction direction) {
+  switch (direction) {
+  case Direction::drive: return "drive";
+  case Direction::coast: return "coast";
+  case Direction::both: return "both";
+  }
+  return "unknown";
+}
+
+std::string_view name(StageStatus status) {
+  switch (status) {
+  case StageStatus::computed: return "computed";
+  case StageStatus::reused: return "reused";
+  case StageStatus::skipped: return "skipped";
+  }
+  return "unknown";
+}
+
+namespace {
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json numbers(const std::vector<double>& values) {
+  Json array = Json::array();
+  for (const double value : values) array.push_back(number(value));
+  return array;
+}
+
+Json load_json(const LoadResult& load) {
+  Json json;
+  json["direction"] = name(load.direction);
+  json["rotation_rad"] = load.rotation_rad;
+  json["torque_nm"] = load.torque_nm;
+  json["tooth"] = load.tooth;
+  json["phi_deg"] = numbers(load.phi_deg);
+  json["force_n"] = numbers(load.force_n);
+  json["loaded_backlash_um"] = numbers(load.loaded_backlash_um);
+  json["engaged_count"] = load.engaged_count;
+  json["engaged_phi_deg"] =
+      load.engaged_count > 0 ? Json::array({load.engaged_lo_deg, load.engaged_hi_deg}) : Json(nullptr);
+  json["peak_force_n"] = load.peak_force_n;
+  json["peak_phi_deg"] = load.engaged_count > 0 ? Json(load.peak_phi_deg) : Json(nullptr);
+  json["peak_phase"] = load.peak_phase;
+  json["tangent_stiffness_nm_per_rad"] = load.tangent_stiffness_nm_per_rad;
+  json["disc_force_n"] = number(load.disc_force_n);
+  if (load.transmission_error_arcsec) json["transmission_error_arcsec"] = *load.transmission_error_arcsec;
+  json["gap_correction"] = {{"rotation_rad", load.gap_correction_rotation_rad},
+                            {"force_n", load.gap_correction_force_n}};
+  return json;
+}
+
+} // namespace
+
+Json result_json(const ForwardResult& result) {
+  Json json;
+  json["gear"] = result.gear;
+  json["fidelity"] = name(result.fidelity);
+  json["version"] = version;
+  json["status"] = status_name(result.status);
+  json["message"] = result.message;
+  if (const auto& wg = result.wave_generator) {
+    json["wave_generator"] = {{"shape", wg->shape},
+                              {"wrap_angle_deg", number(wg->wrap_angle_deg)},
+                              {"disc_radius_mm", number(wg->disc_radius_mm)},
+                              {"eccentricity_mm", number(wg->eccentricity_mm)},
+                              {"u90_mm", number(wg->u90_mm)}};
+  }
+  if (const auto& b = result.backlash) {
+    json["backlash"] = {{"tooth", b->tooth},
+                        {"phi_deg", numbers(b->phi_deg)},
+                        {"backlash_um", numbers(b->backlash_um)},
+                        {"coast_backlash_um", numbers(b->coast_backlash_um)},
+                        {"contact_radius_mm", numbers(b->contact_radius_mm)},
+                        {"min_um", number(b->min_um)},
+                        {"min_phi_deg", number(b->min_phi_deg)},
+                        {"interference", b->interference}};
+  }
+  if (const auto& a = result.assembly) {
+    json["assembly"] = {{"contact_force_n", a->contact_force_n},
+                        {"contact_phi_deg", {a->contact_lo_deg, a->contact_hi_deg}},
+                        {"radial_deformation_mm", a->radial_deformation_mm},
+                        {"newton_steps", a->newton_steps}};
+  }
+  if (const auto& c = result.compliance) {
+    json["compliance"] = {
+        {"tooth", c->tooth}, {"matrix_um_per_n", c->matrix_um_per_n}, {"reciprocity_error", c->reciprocity_error}};
+  }
+  if (!result.load.empty()) {
+    json["load"] = Json::array();
+    for (const LoadResult& load : result.load) json["load"].push_back(load_json(load));
+  }
+  if (const auto& s = result.stiffness) {
+    json["stiffness"] = {{"secant_nm_per_rad", number(s->secant_nm_per_rad)},
+                         {"lost_motion_arcmin", number(s->lost_motion_arcmin)},
+                         {"take_up_rad", number(s->take_up_rad)},
+                         {"wind_up_rad", number(s->wind_up_rad)}};
+  }
+  if (const auto& c = result.certificate) {
+    json["certificate"] = {{"holds", c->holds()},
+                           {"complementarity", c->complementarity},
+                           {"min_gap_um", c->min_gap_um},
+                           {"min_force_n", c->min_force_n},
+                           {"reciprocity", c->reciprocity},
+                           {"equilibrium", c->equilibrium},
+                           {"exact_gap_residual_um", c->exact_gap_residual_um},
+                           {"discretisation_estimate", number(c->discretisation_estimate)}};
+  }
+  json["stages"] = Json::array();
+  for (const Stage& stage : result.stages) {
+    json["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"status", name(stage.status)}});
+  }
+  return json;
+}
+
+std::string result_json_text(const ForwardResult& result) { return result_json(result).dump(2); }
+
+} // namespace strainwave

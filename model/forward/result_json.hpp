@@ -1,0 +1,21 @@
+#pragma once
+// A forward result as the JSON object of `analyze --json`: keys and units as docs/json.md lists them; NaN becomes null.
+
+#include "model/forward/result.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace strainwave {
+
+nlohmann::ordered_json result_json(const ForwardResult& result);
+
+/// The same, as text with two blanks of indentation.
+std::string result_json_text(const ForwardResult& result);
+
+std::string_view name(Fidelity fidelity);
+std::string_view name(Direction direction);
+std::string_view name(StageStatus status);
+
+} // namespace strainwave
