@@ -50,7 +50,7 @@ Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGenerator
     state.newton_steps = step;
     problem.m = ring.wall_wall(state.stations, state.normal);
     problem.q = state.gap_mm - (state.normal.array() * state.displacement.array()).rowwise().sum().matrix();
-    const ContactState solved = solver.solve_at(problem, 0.0, step > 1 ? &state.active : nullptr);
+    const ContactState solved = solver.solve_at(problem, 0.0, step > 1 ? state.active : ActiveSet{});
     state.force_n = solved.force;
     state.active = solved.active;
     state.displacement =

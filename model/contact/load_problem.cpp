@@ -134,8 +134,14 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
     problem.m.topRightCorner(n, m) = -wall_tooth.transpose();
     problem.q.head(n) = tooth_gap;
     problem.q.tail(m) = gap - along_normal(normal, u);
-    result.state = control == Control::torque ? solver.solve_torque(problem, start.torque, &result.state.active)
-                                              : solver.solve_at(problem, start.rotation, &result.state.active);
+    const ActiveSet warm = result.state.active;
+    if (control == Control::torque) {
+      auto solved = solver.solve_torque(problem, start.torque, warm);
+      if (!solved) return solved.failure();
+      result.state = std::move(solved).value();
+    } else {
+      result.state = solver.solve_at(problem, start.rotation, warm);
+    }
   }
   result.correction_rotation_rad = result.state.rotation - start.rotation;
   result.correction_force_n =

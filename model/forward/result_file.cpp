@@ -1,7 +1,7 @@
 #include "model/forward/result_file.hpp"
 
-#include "model/forward/result_json.hpp"
 #include "model/forward/version.hpp"
+#include "model/gear/fields.hpp"
 
 #include <fmt/format.h>
 #include <hdf5.h>
@@ -143,7 +143,7 @@ void write_result_file(const ForwardResult& result, const std::string& config, c
     text(file, "version", version);
     text(file, "status", status_name(result.status));
     text(file, "message", result.message);
-    text(file, "fidelity", name(result.fidelity));
+    text(file, "fidelity", choice_name(result.fidelity));
     put_all(result, file);
     Group::check(H5Fflush(file, H5F_SCOPE_GLOBAL));
   } catch (...) {

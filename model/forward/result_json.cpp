@@ -1,6 +1,7 @@
 #include "model/forward/result_json.hpp"
 
 #include "model/forward/version.hpp"
+#include "model/gear/fields.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -9,24 +10,6 @@
 namespace strainwave {
 
 using Json = nlohmann::ordered_json;
-
-std::string_view name(Fidelity fidelity) {
-  switch (fidelity) {
-  case Fidelity::unilateral: return "unilateral";
-  case Fidelity::linear: return "linear";
-  case Fidelity::nonlinear: return "nonlinear";
-  }
-  return "unknown";
-}
-
-std::string_view name(Direction direction) {
-  switch (direction) {
-  case Direction::drive: return "drive";
-  case Direction::coast: return "coast";
-  case Direction::both: return "both";
-  }
-  return "unknown";
-}
 
 std::string_view name(StageStatus status) {
   switch (status) {
@@ -49,7 +32,7 @@ Json numbers(const std::vector<double>& values) {
 
 Json load_json(const LoadResult& load) {
   Json json;
-  json["direction"] = name(load.direction);
+  json["direction"] = choice_name(load.direction);
   json["rotation_rad"] = load.rotation_rad;
   json["torque_nm"] = load.torque_nm;
   json["tooth"] = load.tooth;
@@ -75,7 +58,7 @@ Json load_json(const LoadResult& load) {
 Json result_json(const ForwardResult& result) {
   Json json;
   json["gear"] = result.gear;
-  json["fidelity"] = name(result.fidelity);
+  json["fidelity"] = choice_name(result.fidelity);
   json["version"] = version;
   json["status"] = status_name(result.status);
   json["message"] = result.message;

@@ -14,8 +14,6 @@ nlohmann::ordered_json result_json(const ForwardResult& result);
 /// The same, as text with two blanks of indentation.
 std::string result_json_text(const ForwardResult& result);
 
-std::string_view name(Fidelity fidelity);
-std::string_view name(Direction direction);
 std::string_view name(StageStatus status);
 
 } // namespace strainwave
