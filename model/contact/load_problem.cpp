@@ -143,6 +143,7 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
       result.state = solver.solve_at(problem, start.rotation, warm);
     }
   }
+  result.certificate = certify(problem, result.state);
   result.correction_rotation_rad = result.state.rotation - start.rotation;
   result.correction_force_n =
       n > 0 ? (result.state.force.head(n) - start.force.head(n)).cwiseAbs().maxCoeff() : 0.0;

@@ -52,6 +52,7 @@ struct ExactLoad {
   double correction_rotation_rad = 0.0; ///< θ(exact) − θ(linearised gaps), at given torque
   double correction_force_n = 0.0;      ///< largest change of a tooth force
   double residual_mm = 0.0;             ///< exact wall gap minus the LCP's, largest
+  ContactCertificate certificate;       ///< of the last LCP
   Eigen::MatrixX2d wall_force;          ///< components (radial, circumferential), N
 };
 

@@ -36,40 +36,12 @@ WallGap WaveGeneratorSurface::disc_gap(double phi, double z, double w, double v)
 }
 
 WallGap WaveGeneratorSurface::cam_gap(double phi, double w, double v) const {
-  const double radius = std::hypot(inner_radius_ + w, v);
-  const double polar = phi + std::atan2(v, inner_radius_ + w);
-  // Foot of the perpendicular on the neutral curve: minimise ½|P − C(t)|², C = ρ(t)(cos t, sin t), by Newton from t = polar.
-  double t = polar;
-  double along = 0.0;
-  double across = 0.0;
-  for (int iteration = 0; iteration < 50; ++iteration) {
-    const Curve curve = cam_(t);
-    const double c = std::cos(polar - t);
-    const double s = std::sin(polar - t);
-    // In the frame of t: P = radius (c, s), C = (ρ, 0), C′ = (ρ′, ρ), C″ = (ρ″ − ρ, 2ρ′).
-    along = radius * c - curve.rho;
-    across = radius * s;
-    const double slope = along * curve.first + across * curve.rho;
-    const double curvature = curve.first * curve.first + curve.rho * curve.rho -
-                             along * (curve.second - curve.rho) - across * 2.0 * curve.first;
-    const double step = slope / curvature;
-    t += step;
-    if (std::abs(step) < 1e-15) break;
-  }
-  const Curve curve = cam_(t);
-  const double c = std::cos(polar - t);
-  const double s = std::sin(polar - t);
-  along = radius * c - curve.rho;
-  across = radius * s;
-  // Outward normal of the curve in the frame of t is (ρ, −ρ′)/|C′|; the wall lies inside the neutral curve by t/2.
-  const double length = std::hypot(curve.rho, curve.first);
-  const double nx = curve.rho / length;
-  const double ny = -curve.first / length;
-  const double signed_distance = along * nx + across * ny;
-  const double turn = t - phi; // from the frame of φ to the frame of t
-  return {.gap_mm = signed_distance + half_thickness_,
-          .radial = nx * std::cos(turn) - ny * std::sin(turn),
-          .circumferential = nx * std::sin(turn) + ny * std::cos(turn)};
+  const double c = std::cos(phi);
+  const double s = std::sin(phi);
+  const Foot foot = cam_((inner_radius_ + w) * c - v * s, (inner_radius_ + w) * s + v * c);
+  return {.gap_mm = foot.distance_mm + half_thickness_,
+          .radial = std::cos(foot.normal_angle_rad - phi),
+          .circumferential = std::sin(foot.normal_angle_rad - phi)};
 }
 
 } // namespace strainwave

@@ -6,8 +6,8 @@
 //               and its gradient is the unit vector from the disc's centre: force on the wall acts along it.
 //   linearised  w − [e cos φ + √(R² − e² sin²φ) − r_m]: radial displacement alone, force radial. For comparison only: it
 //               costs 8 µm of shape and a fifth of the assembly force on the seed cup.
-//   cam         the neutral curve ρ(φ) of an ellipse, cosine or table wave generator, offset inwards by t/2: the exact
-//               gap is the distance to the neutral curve's nearest point minus t/2, found by Newton.
+//   cam         the neutral curve of an ellipse, cosine or table wave generator, offset inwards by t/2: the exact gap is the
+//               signed distance to the neutral curve plus t/2 (a wall at rest on the cam lies t/2 inside the curve).
 //
 // A conical disc (taper) has R falling linearly along the axis by `taper_mm` over the contact width, R in its middle.
 
@@ -31,11 +31,12 @@ public:
     double taper_per_mm = 0.0; ///< −dR/dz
     double middle_z_mm = 0.0;  ///< where R holds
   };
-  /// A cam: ρ(φ) of the neutral curve with its first two derivatives (mm, mm/rad, mm/rad²).
-  struct Curve {
-    double rho = 0.0, first = 0.0, second = 0.0;
+  /// A cam: foot of the perpendicular from a point (x, y) onto the neutral curve.
+  struct Foot {
+    double distance_mm = 0.0;      ///< along the outward normal; negative inside the curve
+    double normal_angle_rad = 0.0; ///< direction of that normal
   };
-  using Cam = std::function<Curve(double polar_rad)>;
+  using Cam = std::function<Foot(double x_mm, double y_mm)>;
 
   /// inner_radius_mm: of the undeformed wall; half_thickness_mm: from there to the neutral line.
   WaveGeneratorSurface(Discs discs, double inner_radius_mm, double half_thickness_mm);

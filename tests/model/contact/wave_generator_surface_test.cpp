@@ -1,4 +1,5 @@
 #include "model/contact/wave_generator_surface.hpp"
+#include "model/kinematics/neutral_curve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +17,16 @@ WaveGeneratorSurface seed_discs(bool linearised = false) {
           inner, half};
 }
 
-WaveGeneratorSurface::Curve two_lobes(double t) {
-  return {14.006 + 0.2 * std::cos(2 * t), -0.4 * std::sin(2 * t), -0.8 * std::cos(2 * t)};
+WaveGeneratorSurface elliptic_cam() {
+  Gear gear = seed_gear();
+  gear.wave_generator.shape = WaveGeneratorShape::ellipse;
+  gear.wave_generator.eccentricity_mm.reset();
+  const NeutralCurve curve = NeutralCurve::make(gear.wave_generator, gear.flexspline).value();
+  return {[curve](double x, double y) {
+            const CurveFoot foot = curve.foot(x, y);
+            return WaveGeneratorSurface::Foot{foot.distance_mm, foot.normal_angle_rad};
+          },
+          inner, half};
 }
 
 TEST(WaveGeneratorSurface, WallPointPlacedOnTheDiscHasNoGap) {
@@ -49,27 +58,32 @@ TEST(WaveGeneratorSurface, LinearisedGapIsTheFormulaOfTheNeutralLine) {
   EXPECT_EQ(g.circumferential, 0.0);
 }
 
-TEST(WaveGeneratorSurface, CamGapIsTheDistanceToTheNearestPointOfTheCurve) {
-  const WaveGeneratorSurface cam(two_lobes, inner, half);
+TEST(WaveGeneratorSurface, CamGapIsTheDistanceToTheNearestPointOfTheEllipse) {
+  // The ellipse with the undeformed perimeter and a = 14.206: b from Ramanujan's second formula, exact to 1e-12 here.
+  const double a = 14.206;
+  double b = 13.8;
+  const auto perimeter = [&](double minor) {
+    const double h = std::pow((a - minor) / (a + minor), 2);
+    return std::numbers::pi * (a + minor) * (1 + 3 * h / (10 + std::sqrt(4 - 3 * h)));
+  };
+  for (int i = 0; i < 60; ++i) b -= (perimeter(b) - 2 * std::numbers::pi * 14.006) / std::numbers::pi;
   const double phi = 0.7;
   const double w = 0.05;
   const double v = -0.06;
   const double x = (inner + w) * std::cos(phi) - v * std::sin(phi);
   const double y = (inner + w) * std::sin(phi) + v * std::cos(phi);
   double nearest = 1e9;
-  for (int i = 0; i <= 2000000; ++i) { // brute force over ±0.05 rad
-    const double t = phi - 0.05 + 0.1 * i / 2000000;
-    const auto c = two_lobes(t);
-    nearest = std::min(nearest, std::hypot(x - c.rho * std::cos(t), y - c.rho * std::sin(t)));
+  for (int i = 0; i <= 1000000; ++i) { // brute force over the eccentric anomaly near 0.7
+    const double t = 0.65 + 0.1 * i / 1000000;
+    nearest = std::min(nearest, std::hypot(x - a * std::cos(t), y - b * std::sin(t)));
   }
   // The wall point lies inside the neutral curve, so the signed distance is −nearest, and t/2 is added. A step of
-  // 5e-8 rad misses the foot by at most 3.5e-7 mm along the curve: (3.5e-7)²/(2·0.15) in distance.
-  EXPECT_NEAR(cam.gap(phi, 0.0, w, v).gap_mm, half - nearest, 1e-12);
+  // 1e-7 misses the foot by at most 7e-7 mm along the curve: (7e-7)²/(2·0.1) in distance.
+  EXPECT_NEAR(elliptic_cam().gap(phi, 0.0, w, v).gap_mm, half - nearest, 1e-11);
 }
 
 TEST(WaveGeneratorSurface, NormalIsTheDerivativeOfTheGap) {
-  const WaveGeneratorSurface cam(two_lobes, inner, half);
-  for (const WaveGeneratorSurface& surface : {seed_discs(), cam}) {
+  for (const WaveGeneratorSurface& surface : {seed_discs(), elliptic_cam()}) {
     const double h = 1e-5;
     const auto g = surface.gap(0.8, 24.5, 0.03, -0.07);
     const double dw = (surface.gap(0.8, 24.5, 0.03 + h, -0.07).gap_mm - surface.gap(0.8, 24.5, 0.03 - h, -0.07).gap_mm) / (2 * h);

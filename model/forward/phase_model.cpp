@@ -1,0 +1,72 @@
+#include "model/forward/phase_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace strainwave {
+
+PhaseModel::PhaseModel(const Contact& contact, const RingCompliance& ring, const WaveGeneratorSurface& surface,
+                       std::shared_ptr<const AssembledState> assembled, std::vector<LoadedTooth> teeth)
+    : contact_(contact), ring_(ring), surface_(surface), assembled_(std::move(assembled)), teeth_(std::move(teeth)),
+      load_(contact.fidelity == Fidelity::linear ? linear_problem(ring, *assembled_, teeth_)
+                                                 : unilateral_problem(ring, *assembled_, teeth_)) {}
+
+double PhaseModel::take_up_rad() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const LoadedTooth& tooth : teeth_) least = std::min(least, tooth.backlash_mm / tooth.contact_radius_mm);
+  return std::max(0.0, least);
+}
+
+Outcome<PhaseLoad> PhaseModel::at_torque(double torque_nm, ContactSolver& solver) const {
+  const auto start = solver.solve_torque(load_.problem, 1e3 * torque_nm / load_.lobes, assembled_guess());
+  if (!start) return start.failure();
+  return finish(*start, Control::torque, solver);
+}
+
+Outcome<PhaseLoad> PhaseModel::at_rotation(double rotation_rad, ContactSolver& solver) const {
+  return finish(solver.solve_at(load_.problem, rotation_rad, assembled_guess()), Control::rotation, solver);
+}
+
+ActiveSet PhaseModel::assembled_guess() const {
+  if (contact_.fidelity == Fidelity::linear) return {};
+  ActiveSet guess(static_cast<std::size_t>(load_.tooth_count), 0);
+  guess.insert(guess.end(), assembled_->active.begin(), assembled_->active.end());
+  return guess;
+}
+
+Outcome<PhaseLoad> PhaseModel::finish(const ContactState& start, Control control, ContactSolver& solver) const {
+  PhaseLoad result;
+  const ContactState* state = &start;
+  std::optional<ExactLoad> exact;
+  if (contact_.fidelity == Fidelity::linear) {
+    result.certificate = certify(load_.problem, start);
+  } else if (contact_.disc_gap == DiscGap::linearised) {
+    result.certificate = certify(load_.problem, start);
+    const Eigen::VectorXd wall = start.force.tail(assembled_->force_n.size());
+    result.disc_force_n =
+        wall_resultant(assembled_->stations, assembled_->normal.array().colwise() * wall.array())(0);
+  } else {
+    auto corrected = correct_to_exact_gap(ring_, surface_, *assembled_, load_, start, control, solver);
+    if (!corrected) return corrected.failure();
+    exact = std::move(corrected).value();
+    state = &exact->state;
+    result.certificate = exact->certificate;
+    result.exact_gap_residual_um = 1e3 * exact->residual_mm;
+    result.gap_correction_rotation_rad = exact->correction_rotation_rad;
+    result.gap_correction_force_n = exact->correction_force_n;
+    result.disc_force_n = wall_resultant(assembled_->stations, exact->wall_force)(0);
+  }
+  result.rotation_rad = state->rotation;
+  result.torque_nm = 1e-3 * load_.lobes * state->torque;
+  result.tangent_nm_per_rad = 1e-3 * load_.lobes * state->stiffness;
+  result.contact = state->contact;
+  for (std::size_t i = 0; i < teeth_.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    result.force_n.push_back(state->force(at));
+    result.loaded_backlash_um.push_back(1e3 * std::max(0.0, state->gap(at)) / std::cos(teeth_[i].pressure_angle_rad));
+  }
+  return result;
+}
+
+} // namespace strainwave
