@@ -1,0 +1,163 @@
+#include "model/flexspline/responses.hpp"
+
+#include "model/flexspline/cyclic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+namespace strainwave {
+
+namespace {
+
+struct FaceRange {
+  double rear, front;
+};
+FaceRange face_range(const Flexspline& f) {
+  const double front = f.cup_length_mm - f.front_clearance_mm;
+  return {front - f.face_width_mm, front};
+}
+
+std::vector<double> equidistant(double begin, double end, int count) {
+  std::vector<double> values;
+  for (int n = 0; n < count; ++n)
+    values.push_back(n == count - 1 ? end : begin + (end - begin) * n / (count - 1));
+  return values;
+}
+
+std::optional<Failure> flaw(const ResponseRequest& r) {
+  const auto no = [](std::string message) { return Failure{Status::contradiction, std::move(message)}; };
+  if (r.teeth && r.flank_heights < 2)
+    return no(fmt::format("flank_heights = {}: at least 2 hats cover a flank", r.flank_heights));
+  if (r.teeth && r.face_slices < 1)
+    return no(fmt::format("face_slices = {}: at least 1", r.face_slices));
+  if (!(r.material.youngs_modulus_mpa > 0.0) ||
+      !(r.material.poisson_ratio > -1.0 && r.material.poisson_ratio < 0.5))
+    return no(fmt::format("E = {} MPa and ν = {} are no elastic material", r.material.youngs_modulus_mpa,
+                          r.material.poisson_ratio));
+  for (const double offset : r.wall_offset)
+    if (!(offset >= 0.0 && offset < 1.0))
+      return no(fmt::format("wall station {} is not in [0, 1) pitches", offset));
+  const double bottom = r.flexspline.diaphragm_thickness_mm / 2.0, top = r.flexspline.cup_length_mm;
+  for (const auto* rows : {&r.wall_z_mm, &r.section_z_mm})
+    for (std::size_t n = 0; n < rows->size(); ++n) {
+      if (!((*rows)[n] >= bottom && (*rows)[n] <= top))
+        return no(
+            fmt::format("row z = {} mm does not lie on the wall ({} … {} mm)", (*rows)[n], bottom, top));
+      if (n > 0 && !((*rows)[n] > (*rows)[n - 1]))
+        return no("rows along the axis must ascend");
+    }
+  return {};
+}
+
+/// Half width of the wall hats in z.
+Hat row_hat(const ResponseRequest& r, double z) {
+  const double half = r.flexspline.rim_thickness_mm;
+  return {z - half, z, z + half};
+}
+
+void add_sections(const ResponseRequest& r, const SectorMesh& mesh, ResponseFunctionals& result) {
+  const Flexspline& f = r.flexspline;
+  const double inner = f.neutral_radius_mm - f.rim_thickness_mm / 2.0;
+  for (const double z : result.layout.section_z_mm) {
+    const bool behind = z < face_range(f).rear;
+    const double thickness = r.teeth && !behind ? f.root_radius_mm - inner : f.wall_thickness_mm;
+    const double neutral = r.teeth && !behind ? f.neutral_radius_mm : inner + thickness / 2.0;
+    const PointFunctionals at_neutral = point_functionals(mesh, {neutral, 0.0, z});
+    const PointFunctionals at_inner = point_functionals(mesh, {inner, 0.0, z});
+    const PointFunctionals at_outer = point_functionals(mesh, {inner + thickness, 0.0, z});
+    const double by = 1.0 / thickness;
+    result.functionals.push_back({at_neutral.radial, {}});
+    result.functionals.push_back({at_neutral.circumferential, {}});
+    result.functionals.push_back({combine(at_outer.circumferential, by, at_inner.circumferential, -by), {}});
+    result.functionals.push_back({combine(at_outer.axial, by, at_inner.axial, -by), {}});
+  }
+}
+
+double largest_reciprocity_error(const UnitResponses& u) {
+  double error = 0.0, scale = 0.0;
+  const int n = u.count();
+  for (int k = 0; k <= u.sectors / 2; ++k)
+    for (int a = 0; a < n; ++a)
+      for (int b = 0; b < n; ++b) {
+        error = std::max(error, std::fabs(u(k, a, b) - u(-k, b, a)));
+        scale = std::max({scale, std::fabs(u(k, a, b)), std::fabs(u(-k, b, a))});
+      }
+  return scale > 0.0 ? error / scale : 0.0;
+}
+
+double flank_difference(const UnitResponses& fine, const UnitResponses& coarse) {
+  double difference = 0.0, scale = 0.0;
+  for (int k = 0; k < fine.sectors; ++k)
+    for (int a = 0; a < fine.flank_count(); ++a)
+      for (int b = 0; b < fine.flank_count(); ++b) {
+        difference = std::max(difference, std::fabs(fine(k, a, b) - coarse(k, a, b)));
+        scale = std::max(scale, std::fabs(fine(k, a, b)));
+      }
+  return scale > 0.0 ? difference / scale : 0.0;
+}
+
+} // namespace
+
+ResponseFunctionals response_functionals(const ResponseRequest& r, const SectorMesh& mesh) {
+  ResponseFunctionals result;
+  UnitResponses& layout = result.layout;
+  const FaceRange face = face_range(r.flexspline);
+  layout.sectors = mesh.sectors;
+  layout.wall_offset = r.wall_offset;
+  layout.wall_z_mm =
+      r.wall_z_mm.empty() ? equidistant(face.rear, face.front, r.mesh.along_face + 1) : r.wall_z_mm;
+  if (r.sections)
+    layout.section_z_mm = r.section_z_mm.empty() ? layout.wall_z_mm : r.section_z_mm;
+  const auto add = [&](DirectionPair pair) {
+    result.functionals.push_back(std::move(pair.circumferential));
+    result.functionals.push_back(std::move(pair.radial));
+  };
+  if (r.teeth) {
+    const double root = r.flexspline.root_radius_mm, tip = r.flexspline.tip_radius_mm;
+    layout.flank_radius_mm = equidistant(root, tip, r.flank_heights);
+    layout.flank_z_mm = r.face_slices == 1 ? std::vector<double>{0.5 * (face.rear + face.front)}
+                                           : equidistant(face.rear, face.front, r.face_slices);
+    for (int height = 0; height < r.flank_heights; ++height)
+      for (int slice = 0; slice < r.face_slices; ++slice) {
+        const Hat across = r.face_slices == 1 ? Hat{.constant = true}
+                                              : equidistant_hat(face.rear, face.front, r.face_slices, slice);
+        add(flank_hat(mesh, equidistant_hat(root, tip, r.flank_heights, height), across));
+      }
+  }
+  for (const double offset : layout.wall_offset)
+    for (const double z : layout.wall_z_mm)
+      add(wall_hat(mesh, offset, row_hat(r, z)));
+  add_sections(r, mesh, result);
+  return result;
+}
+
+Outcome<UnitResponses> unit_responses(const ResponseRequest& request, int threads) {
+  if (const auto failure = flaw(request))
+    return *failure;
+  const auto solve = [&](const Mesh& counts) -> Outcome<UnitResponses> {
+    const Outcome<SectorMesh> mesh =
+        sector_mesh(request.flexspline, counts, {request.teeth, request.sectors});
+    if (!mesh)
+      return mesh.failure();
+    ResponseFunctionals plan = response_functionals(request, *mesh);
+    plan.layout.data = cyclic_responses(*mesh, request.material, plan.functionals, threads);
+    return std::move(plan.layout);
+  };
+  Outcome<UnitResponses> fine = solve(request.mesh);
+  if (!fine)
+    return fine;
+  UnitResponses result = std::move(fine).value();
+  result.reciprocity_error = largest_reciprocity_error(result);
+  if (request.estimate && request.teeth) {
+    const Outcome<UnitResponses> coarse = solve(coarser(request.mesh, request.teeth));
+    if (!coarse)
+      return coarse.failure();
+    result.discretisation_estimate = flank_difference(result, *coarse) / (std::exp2(response_order) - 1.0);
+  }
+  return result;
+}
+
+} // namespace strainwave

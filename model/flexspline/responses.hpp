@@ -1,0 +1,63 @@
+#pragma once
+// From a flexspline to its unit responses: mesh, functionals, cyclic solve, and the checks that go with them.
+//
+// Functionals of one sector (signs, units and order: unit_responses.hpp):
+//   flank     hats in radius between `flank_heights` equidistant levels root … tip, constant across the face
+//   or times
+//             hats between `face_slices` equidistant places rear … front; circumferential and radial
+//   wall      hats in angle between the stations, half width half a pitch, times a hat in z of half width
+//   rim_thickness
+//             about the row (cut only at the open end); circumferential and radial
+//   section   a point of the neutral surface under the tooth centre: radial, circumferential; rotation about
+//   the axis
+//             (u_φ(outer) − u_φ(inner))/t and meridian tilt (u_z(outer) − u_z(inner))/t of the wall's normal
+//             there
+//
+// Rows are fixed by the cup and its mesh, never by the wave generator: along_face + 1 equidistant ones over
+// the face.
+//
+// Discretisation estimate: the same functionals on a mesh of about half the counts (mesh.hpp, coarser). With
+// errors that shrink like (mesh size)^p the finer solution is off by about |difference|/(2^p − 1); p =
+// response_order was measured by refining (docs/flexspline.md). Given: the largest such difference of the
+// flank-to-flank responses over their largest.
+
+#include "model/flexspline/functionals.hpp"
+#include "model/flexspline/mesh.hpp"
+#include "model/flexspline/unit_responses.hpp"
+#include "model/gear/gear.hpp"
+#include "model/gear/outcome.hpp"
+
+#include <vector>
+
+namespace strainwave {
+
+struct ResponseRequest {
+  Flexspline flexspline;
+  Material material;
+  Mesh mesh;
+  bool teeth = true;
+  int sectors = 0;                              ///< smooth cup: number of sectors; 0: as many as teeth
+  int flank_heights = 5;                        ///< ≥ 2
+  int face_slices = 1;                          ///< 1: constant across the face
+  std::vector<double> wall_offset = {0.0, 0.5}; ///< stations in pitches from the tooth centre, each in [0, 1)
+  std::vector<double> wall_z_mm;    ///< rows; empty: along_face + 1 equidistant ones over the face
+  bool sections = true;             ///< section functionals at all
+  std::vector<double> section_z_mm; ///< rows; empty: those of the wall
+  bool estimate = true;             ///< discretisation estimate (a second solve on a coarser mesh)
+};
+
+/// Order of convergence that the estimate supposes.
+inline constexpr double response_order = 2.0;
+
+/// The functionals of a request on a mesh; data and checks stay empty.
+struct ResponseFunctionals {
+  UnitResponses layout;
+  std::vector<Functional> functionals;
+};
+ResponseFunctionals response_functionals(const ResponseRequest& request, const SectorMesh& mesh);
+
+/// The unit responses of the free cup, or the sentence that says why there are none. threads 0: as many as
+/// cores; the bits of the result do not depend on it.
+Outcome<UnitResponses> unit_responses(const ResponseRequest& request, int threads = 0);
+
+} // namespace strainwave
