@@ -1,0 +1,23 @@
+#pragma once
+// The sub-commands. Each add_… declares one sub-command with its options; when the user names it, it puts
+// what is to be done into `chosen`, and main runs that after the whole command line has been read.
+
+#include "app/exit_codes.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <string_view>
+
+namespace strainwave::app {
+
+using Command = std::function<ExitCode()>;
+
+void add_example(CLI::App& app, Command& chosen);
+void add_schema(CLI::App& app, Command& chosen);
+void add_check(CLI::App& app, Command& chosen);
+
+/// The text of studies/gallery/seed.toml.
+extern const std::string_view example_text;
+
+} // namespace strainwave::app

@@ -1,0 +1,25 @@
+#include "app/commands.hpp"
+#include "app/output.hpp"
+#include "model/gear_file/gear_schema.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <memory>
+
+namespace strainwave::app {
+
+void add_schema(CLI::App& app, Command& chosen) {
+  CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of gear files");
+  command->footer("The schema is JSON Schema 2020-12; editors use it to complete and check keys.\n"
+                  "Example:  strainwave schema > strainwave.schema.json");
+  const auto as_page = std::make_shared<bool>(false);
+  command->add_flag("--reference", *as_page, "Print the reference page of the keys instead, in Markdown");
+  command->callback([&chosen, as_page] {
+    chosen = [as_page] {
+      print(*as_page ? reference_page() : json_schema().dump(2) + "\n");
+      return ExitCode::done;
+    };
+  });
+}
+
+} // namespace strainwave::app

@@ -1,0 +1,87 @@
+#include "app/wrong_use.hpp"
+
+#include "model/gear/nearest.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <vector>
+
+namespace strainwave::app {
+
+namespace {
+
+/// The sub-command that was being read when the error came; the program itself if none was.
+const CLI::App& innermost(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  return chosen.empty() ? app : innermost(*chosen.back());
+}
+
+/// "strainwave study run"
+std::string full_name(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return parent ? full_name(*parent) + " " + command.get_name() : command.get_name();
+}
+
+std::vector<std::string> legal_options(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames())
+      names.push_back("--" + name);
+    for (const std::string& name : option->get_snames())
+      names.push_back("-" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> legal_commands(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : command.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(sub->get_name());
+  return names;
+}
+
+std::string unknown(std::string_view what, const std::string& word, const std::vector<std::string>& legal) {
+  const std::vector<std::string_view> views(legal.begin(), legal.end());
+  const Nearest nearest = nearest_name(word, views);
+  if (nearest.name.empty())
+    return fmt::format("{} is not expected here", word);
+  if (nearest.close)
+    return fmt::format("there is no {} {}; did you mean {}?", what, word, nearest.name);
+  std::string list;
+  for (const std::string& name : legal)
+    list += (list.empty() ? "" : ", ") + name;
+  return fmt::format("there is no {} {}; the nearest legal one is {} (of {})", what, word, nearest.name,
+                     list);
+}
+
+std::string sentence_without_hint(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App& command = innermost(app);
+  const std::vector<std::string> commands = legal_commands(command);
+  if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+    const std::vector<std::string> extras = app.remaining(true);
+    for (const std::string& extra : extras) {
+      if (extra.size() > 1 && extra[0] == '-')
+        return unknown("option", extra.substr(0, extra.find('=')), legal_options(command));
+      if (!commands.empty())
+        return unknown("command", extra, commands);
+      return fmt::format("{} is one argument too many", extra);
+    }
+  }
+  if (dynamic_cast<const CLI::RequiredError*>(&error) && !commands.empty()) {
+    std::string list;
+    for (const std::string& name : commands)
+      list += (list.empty() ? "" : ", ") + name;
+    return fmt::format("a command is missing; expected one of {}", list);
+  }
+  return error.what();
+}
+
+} // namespace
+
+std::string wrong_use_sentence(const CLI::App& app, const CLI::ParseError& error) {
+  return fmt::format("{}\n`{} --help` explains the use", sentence_without_hint(app, error),
+                     full_name(innermost(app)));
+}
+
+} // namespace strainwave::app
