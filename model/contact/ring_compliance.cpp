@@ -202,6 +202,26 @@ Eigen::MatrixX2d RingCompliance::wall_displacement(std::span<const WallStation> 
   return result;
 }
 
+Eigen::VectorXd RingCompliance::tooth_displacement(std::span<const ToothFunctional> teeth,
+                                                   std::span<const WallStation> loaded,
+                                                   const Eigen::MatrixX2d& wall_force) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(teeth.size()));
+  for (Eigen::Index i = 0; i < result.size(); ++i) {
+    const ToothFunctional& tooth = teeth[static_cast<std::size_t>(i)];
+    for (Eigen::Index j = 0; j < wall_force.rows(); ++j) {
+      if (wall_force(j, 0) == 0.0 && wall_force(j, 1) == 0.0) continue;
+      const WallStation& load = loaded[static_cast<std::size_t>(j)];
+      // tooth ← wall at offset k is wall ← tooth at −k, by reciprocity
+      const Eigen::MatrixXd& g = wall_all_[static_cast<std::size_t>(wrapped(load.sector - tooth.sector))];
+      const int b = wall_index(load);
+      for (const auto& [a, weight] : tooth.weights) {
+        result(i) += weight * (g(b + 1, a) * wall_force(j, 0) + g(b, a) * wall_force(j, 1));
+      }
+    }
+  }
+  return result;
+}
+
 Eigen::MatrixX4d RingCompliance::section(std::span<const int> at_sectors, double z_mm,
                                          std::span<const WallStation> loaded, const Eigen::MatrixX2d& wall_force,
                                          std::span<const ToothFunctional> teeth,

@@ -68,6 +68,10 @@ public:
                                      const Eigen::MatrixX2d& wall_force, std::span<const ToothFunctional> teeth,
                                      const Eigen::VectorXd& tooth_force) const;
 
+  /// Displacement of the teeth's functionals from wall forces (columns radial, circumferential; N).
+  Eigen::VectorXd tooth_displacement(std::span<const ToothFunctional> teeth, std::span<const WallStation> loaded,
+                                     const Eigen::MatrixX2d& wall_force) const;
+
   /// Displacement of the neutral surface under tooth centres at axial position z, from wall and tooth forces:
   /// columns radial, circumferential [mm], rotation about the axis, meridian tilt [rad]; one line per sector given.
   Eigen::MatrixX4d section(std::span<const int> at_sectors, double z_mm, std::span<const WallStation> loaded,

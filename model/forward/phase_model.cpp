@@ -35,6 +35,33 @@ ActiveSet PhaseModel::assembled_guess() const {
   return guess;
 }
 
+double PhaseModel::recomputed_gap_error(const ContactState& state, const Eigen::MatrixX2d* wall_force) const {
+  // d from the forces, piece by piece through the ring, not through the solver's matrix.
+  const Eigen::Index n = load_.tooth_count;
+  const Eigen::VectorXd tooth_force = state.force.head(n);
+  const Eigen::VectorXd own = ring_.tooth_tooth(load_.teeth) * tooth_force;
+  Eigen::VectorXd from_wall;
+  if (contact_.fidelity == Fidelity::linear) {
+    // the frozen wall: change of wall forces that keeps the closed stations where assembly put them
+    from_wall = load_.problem.m * tooth_force - own;
+  } else {
+    const Eigen::MatrixX2d change =
+        (wall_force ? *wall_force
+                    : Eigen::MatrixX2d(assembled_->normal.array().colwise() *
+                                       state.force.tail(assembled_->force_n.size()).array())) -
+        assembled_->force_components();
+    from_wall = -ring_.tooth_displacement(load_.teeth, assembled_->stations, change);
+  }
+  double worst = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const LoadedTooth& tooth = teeth_[static_cast<std::size_t>(i)];
+    const double cosine = std::cos(tooth.pressure_angle_rad);
+    const double gap = cosine * (tooth.backlash_mm - tooth.contact_radius_mm * state.rotation) + own(i) + from_wall(i);
+    worst = std::max(worst, std::abs(gap - state.gap(i)));
+  }
+  return worst;
+}
+
 Outcome<PhaseLoad> PhaseModel::finish(const ContactState& start, Control control, ContactSolver& solver) const {
   PhaseLoad result;
   const ContactState* state = &start;
@@ -57,6 +84,7 @@ Outcome<PhaseLoad> PhaseModel::finish(const ContactState& start, Control control
     result.gap_correction_force_n = exact->correction_force_n;
     result.disc_force_n = wall_resultant(assembled_->stations, exact->wall_force)(0);
   }
+  result.recomputed_gap_um = 1e3 * recomputed_gap_error(*state, exact ? &exact->wall_force : nullptr);
   result.rotation_rad = state->rotation;
   result.torque_nm = 1e-3 * load_.lobes * state->torque;
   result.tangent_nm_per_rad = 1e-3 * load_.lobes * state->stiffness;

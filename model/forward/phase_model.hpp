@@ -22,6 +22,7 @@ struct PhaseLoad {
   double gap_correction_rotation_rad = 0.0;
   double gap_correction_force_n = 0.0;
   double exact_gap_residual_um = 0.0;
+  double recomputed_gap_um = 0.0; ///< tooth gaps from the forces through the unit responses, against the solver's; largest
   ContactCertificate certificate;
   bool contact = false;
 };
@@ -41,6 +42,7 @@ public:
 
 private:
   ActiveSet assembled_guess() const;
+  double recomputed_gap_error(const ContactState& state, const Eigen::MatrixX2d* wall_force) const;
   Outcome<PhaseLoad> finish(const ContactState& start, Control control, ContactSolver& solver) const;
 
   Contact contact_;

@@ -1,0 +1,152 @@
+#include "model/forward/load_cases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace strainwave {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double arcsec = degree / 3600.0;
+
+/// One asked-for load: torque or rotation.
+struct Asked {
+  bool torque = true;
+  double value = 0.0;
+};
+
+/// The drive-side phase that mirrors phase s of the coast side.
+double mirrored_phase(double s) { return s == 0.0 ? 0.0 : 1.0 - s; }
+int mirrored_tooth(int tooth, double phase) { return phase == 0.0 ? -tooth : -1 - tooth; }
+
+LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction direction, double phase) {
+  LoadResult result;
+  result.direction = direction;
+  result.rotation_rad = load.rotation_rad;
+  result.torque_nm = load.torque_nm;
+  result.tangent_stiffness_nm_per_rad = load.tangent_nm_per_rad;
+  result.disc_force_n = load.disc_force_n;
+  result.gap_correction_rotation_rad = load.gap_correction_rotation_rad;
+  result.gap_correction_force_n = load.gap_correction_force_n;
+  result.peak_phase = phase;
+  const bool coast = direction == Direction::coast;
+  const std::size_t n = model.teeth().size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = coast ? n - 1 - k : k; // ascending φ
+    const LoadedTooth& tooth = model.teeth()[i];
+    const double phi = (coast ? -tooth.phi_rad : tooth.phi_rad) / degree;
+    result.tooth.push_back(coast ? mirrored_tooth(tooth.tooth, phase) : tooth.tooth);
+    result.phi_deg.push_back(phi);
+    result.force_n.push_back(load.force_n[i]);
+    result.loaded_backlash_um.push_back(load.loaded_backlash_um[i]);
+    if (!(load.force_n[i] > 0.0)) continue;
+    if (result.engaged_count++ == 0) result.engaged_lo_deg = phi;
+    result.engaged_hi_deg = phi;
+    if (load.force_n[i] > result.peak_force_n) {
+      result.peak_force_n = load.force_n[i];
+      result.peak_phi_deg = phi;
+    }
+  }
+  return result;
+}
+
+class Cases {
+public:
+  Cases(const Gear& gear, const PhaseSource& source, ForwardResult& result)
+      : gear_(gear), source_(source), result_(result) {}
+
+  std::optional<Failure> run() {
+    std::vector<Asked> asked;
+    for (const double torque : gear_.load.torque_nm) asked.push_back({true, torque});
+    for (const double rotation : gear_.load.rotation_rad) asked.push_back({false, rotation});
+    for (const Direction direction : {Direction::drive, Direction::coast}) {
+      if (gear_.load.direction != Direction::both && gear_.load.direction != direction) continue;
+      for (const Asked& load : asked) {
+        if (auto failure = one_case(load, direction)) return failure;
+      }
+    }
+    return stiffness();
+  }
+
+private:
+  Outcome<PhaseLoad> solve(const PhaseModel& model, const Asked& asked) {
+    auto load = asked.torque ? model.at_torque(asked.value, solver_) : model.at_rotation(asked.value, solver_);
+    if (load) note(*load);
+    return load;
+  }
+
+  /// Worst over the phases of one pitch; the arrays are those of the phase with the largest tooth force.
+  std::optional<Failure> one_case(const Asked& asked, Direction direction) {
+    std::optional<LoadResult> worst;
+    double least_rotation = std::numeric_limits<double>::infinity();
+    double most_rotation = -least_rotation;
+    for (int j = 0; j < gear_.load.phases; ++j) {
+      const double phase = static_cast<double>(j) / gear_.load.phases;
+      const auto model = source_(direction == Direction::coast ? mirrored_phase(phase) : phase);
+      if (!model) return model.failure();
+      const auto load = solve(**model, asked);
+      if (!load) return load.failure();
+      least_rotation = std::min(least_rotation, load->rotation_rad);
+      most_rotation = std::max(most_rotation, load->rotation_rad);
+      LoadResult presented = present(**model, *load, direction, phase);
+      if (!worst || presented.peak_force_n > worst->peak_force_n) worst = std::move(presented);
+    }
+    if (gear_.load.phases > 1 && asked.torque) {
+      worst->transmission_error_arcsec = (most_rotation - least_rotation) / arcsec;
+    }
+    if (worst->engaged_count == 0 && !asked.torque) {
+      result_.message = fmt::format("no tooth is in contact at a rotation of {:.6g} rad", asked.value);
+    }
+    result_.load.push_back(std::move(*worst));
+    return std::nullopt;
+  }
+
+  /// At meshing phase 0, where drive and coast side are mirror images.
+  std::optional<Failure> stiffness() {
+    const double rated = gear_.load.rated_torque_nm;
+    if (!(rated > 0.0)) return std::nullopt;
+    const auto model = source_(0.0);
+    if (!model) return model.failure();
+    const auto at_rated = solve(**model, {true, rated});
+    if (!at_rated) return at_rated.failure();
+    const auto at_small = solve(**model, {true, 0.04 * rated});
+    if (!at_small) return at_small.failure();
+    StiffnessResult s;
+    s.take_up_rad = (*model)->take_up_rad();
+    s.wind_up_rad = at_rated->rotation_rad - s.take_up_rad;
+    s.secant_nm_per_rad = rated / s.wind_up_rad;
+    s.lost_motion_arcmin = 2.0 * at_small->rotation_rad / (60.0 * arcsec);
+    result_.stiffness = s;
+    return std::nullopt;
+  }
+
+  void note(const PhaseLoad& load) {
+    Certificate& c = *result_.certificate;
+    c.complementarity = std::max(c.complementarity, load.certificate.complementarity);
+    c.min_gap_um = std::min(c.min_gap_um, 1e3 * load.certificate.min_gap);
+    c.min_force_n = std::min(c.min_force_n, load.certificate.min_force);
+    c.equilibrium = std::max(c.equilibrium, load.certificate.torque_error);
+    if (load.certificate.gap_scale > 0.0) {
+      c.equilibrium = std::max(c.equilibrium, load.recomputed_gap_um * 1e-3 / load.certificate.gap_scale);
+    }
+    c.exact_gap_residual_um = std::max(c.exact_gap_residual_um, load.exact_gap_residual_um);
+  }
+
+  const Gear& gear_;
+  const PhaseSource& source_;
+  ForwardResult& result_;
+  ContactSolver solver_;
+};
+
+} // namespace
+
+std::optional<Failure> solve_load_cases(const Gear& gear, const PhaseSource& phase_source, ForwardResult& result) {
+  return Cases(gear, phase_source, result).run();
+}
+
+} // namespace strainwave
