@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace strainwave {
 
@@ -21,6 +23,23 @@ Eigen::Vector2d wall_resultant(const std::vector<WallStation>& stations, const E
   }
   return sum;
 }
+
+namespace {
+
+/// Disc force and the outermost loaded stations of the lobe around φ = 0.
+void summarise(AssembledState& state) {
+  state.disc_force_n = wall_resultant(state.stations, state.force_components())(0);
+  bool any = false;
+  for (std::size_t i = 0; i < state.stations.size(); ++i) {
+    const double phi = state.stations[i].phi_rad;
+    if (state.force_n(static_cast<Eigen::Index>(i)) == 0.0 || std::cos(phi) < 0.0) continue;
+    state.contact_lo_rad = any ? std::min(state.contact_lo_rad, phi) : phi;
+    state.contact_hi_rad = any ? std::max(state.contact_hi_rad, phi) : phi;
+    any = true;
+  }
+}
+
+} // namespace
 
 Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGeneratorSurface& surface, double phase,
                                  ContactSolver& solver, const AssemblyOptions& options) {
@@ -67,17 +86,45 @@ Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGenerator
   }
   // The normals have just been measured again; the matrix handed on belongs to them.
   state.compliance = ring.wall_wall(state.stations, state.normal);
-  const Eigen::MatrixX2d components = state.force_components();
-  state.disc_force_n = wall_resultant(state.stations, components)(0);
-  bool any = false;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double phi = state.stations[static_cast<std::size_t>(i)].phi_rad;
-    if (state.force_n(i) <= 0.0 || std::cos(phi) < 0.0) continue;
-    if (!any) state.contact_lo_rad = state.contact_hi_rad = phi;
-    any = true;
-    state.contact_lo_rad = std::min(state.contact_lo_rad, phi);
-    state.contact_hi_rad = std::max(state.contact_hi_rad, phi);
+  summarise(state);
+  return state;
+}
+
+AssembledState hold_at_lines(const RingCompliance& ring, double angle_rad, double displacement_mm, double phase) {
+  AssembledState state;
+  state.stations = ring.stations(phase);
+  const auto n = static_cast<Eigen::Index>(state.stations.size());
+  const auto rows = static_cast<Eigen::Index>(ring.rows_mm().size());
+  state.normal = Eigen::MatrixX2d::Zero(n, 2);
+  state.normal.col(0).setOnes();
+  state.compliance = ring.wall_wall(state.stations, state.normal);
+
+  std::vector<double> lines = {-angle_rad, angle_rad};
+  if (!ring.folded()) lines.insert(lines.end(), {angle_rad - std::numbers::pi, std::numbers::pi - angle_rad});
+  state.hold = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(lines.size()) * rows, n);
+  // Stations stand in groups of `rows` by ascending angle.
+  const Eigen::Index groups = n / rows;
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    Eigen::Index after = 0;
+    while (after < groups - 1 && state.stations[static_cast<std::size_t>(after * rows)].phi_rad < lines[line]) ++after;
+    const Eigen::Index before = std::max<Eigen::Index>(0, after - 1);
+    const double lo = state.stations[static_cast<std::size_t>(before * rows)].phi_rad;
+    const double hi = state.stations[static_cast<std::size_t>(after * rows)].phi_rad;
+    const double share = hi > lo ? (lines[line] - lo) / (hi - lo) : 0.0;
+    for (Eigen::Index row = 0; row < rows; ++row) {
+      const auto at = static_cast<Eigen::Index>(line) * rows + row;
+      state.hold(at, before * rows + row) += 1.0 - share;
+      state.hold(at, after * rows + row) += share;
+    }
   }
+  const Eigen::MatrixXd held = state.hold * state.compliance * state.hold.transpose();
+  const Eigen::VectorXd reaction = held.llt().solve(Eigen::VectorXd::Constant(held.rows(), displacement_mm));
+  state.force_n = state.hold.transpose() * reaction;
+  state.displacement =
+      ring.wall_displacement(state.stations, state.stations, state.force_components(), {}, Eigen::VectorXd());
+  state.gap_mm = Eigen::VectorXd::Zero(n);
+  state.active.assign(static_cast<std::size_t>(n), 0);
+  summarise(state);
   return state;
 }
 

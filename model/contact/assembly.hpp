@@ -27,6 +27,9 @@ struct AssembledState {
   ActiveSet active;
   Eigen::MatrixXd compliance;    ///< NᵀGN of all stations, mm/N
 
+  /// Only for walls held at lines (four_force): one line of weights on the stations for each held point; else empty.
+  Eigen::MatrixXd hold;
+
   double disc_force_n = 0.0;        ///< resultant of one lobe along the major axis
   double contact_lo_rad = 0.0;      ///< outermost stations of the lobe around φ = 0 that carry force
   double contact_hi_rad = 0.0;
@@ -44,6 +47,10 @@ struct AssemblyOptions {
 
 Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGeneratorSurface& surface, double phase,
                                  ContactSolver& solver, const AssemblyOptions& options = {});
+
+/// Four radial forces have no surface: the wall is held, both ways, at the lines φ = ±angle (and opposite) along the rows,
+/// with the given radial displacement there. Held points between two stations use linear weights.
+AssembledState hold_at_lines(const RingCompliance& ring, double angle_rad, double displacement_mm, double phase);
 
 /// Resultants (major axis, minor axis) of wall forces over the lobe around φ = 0, N.
 Eigen::Vector2d wall_resultant(const std::vector<WallStation>& stations, const Eigen::MatrixX2d& force_components);

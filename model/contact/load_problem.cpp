@@ -36,20 +36,27 @@ std::vector<ToothFunctional> tooth_functionals(const RingCompliance& ring, std::
 
 Eigen::MatrixXd frozen_compliance(const RingCompliance& ring, const AssembledState& assembled,
                                   std::span<const ToothFunctional> teeth) {
-  std::vector<WallStation> closed;
-  std::vector<Eigen::Index> at;
-  for (std::size_t i = 0; i < assembled.active.size(); ++i) {
-    if (!assembled.active[i]) continue;
-    closed.push_back(assembled.stations[i]);
-    at.push_back(static_cast<Eigen::Index>(i));
-  }
-  const Eigen::MatrixX2d normal = assembled.normal(at, Eigen::all);
   Eigen::MatrixXd d = ring.tooth_tooth(teeth);
-  if (closed.empty()) return d;
-  const Eigen::MatrixXd wall = assembled.compliance(at, at);
-  const Eigen::LLT<Eigen::MatrixXd> factor(wall);
+  Eigen::MatrixXd wall;      // compliance of what is held
+  Eigen::MatrixXd wall_tooth; // its displacement from unit tooth loads
+  if (assembled.hold.size() > 0) {
+    wall = assembled.hold * assembled.compliance * assembled.hold.transpose();
+    wall_tooth = assembled.hold * ring.wall_tooth(assembled.stations, assembled.normal, teeth);
+  } else {
+    std::vector<WallStation> closed;
+    std::vector<Eigen::Index> at;
+    for (std::size_t i = 0; i < assembled.active.size(); ++i) {
+      if (!assembled.active[i]) continue;
+      closed.push_back(assembled.stations[i]);
+      at.push_back(static_cast<Eigen::Index>(i));
+    }
+    wall = assembled.compliance(at, at);
+    wall_tooth = ring.wall_tooth(closed, assembled.normal(at, Eigen::all), teeth);
+  }
+  if (wall.size() == 0) return d;
   // D = G_tt − YᵀY with Y = L⁻¹ G_wt: symmetric by construction.
-  const Eigen::MatrixXd y = factor.matrixL().solve(ring.wall_tooth(closed, normal, teeth));
+  const Eigen::LLT<Eigen::MatrixXd> factor(wall);
+  const Eigen::MatrixXd y = factor.matrixL().solve(wall_tooth);
   d.selfadjointView<Eigen::Lower>().rankUpdate(y.transpose(), -1.0);
   d.triangularView<Eigen::StrictlyUpper>() = d.transpose();
   return d;

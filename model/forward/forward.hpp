@@ -31,8 +31,9 @@ public:
   /// std::bad_alloc for disk and memory.
   ForwardResult analyze(const Gear& gear, Want want = Want::load);
 
+  struct State; ///< what analyses share; of forward.cpp only
+
 private:
-  struct State;
   std::unique_ptr<State> state_;
 };
 

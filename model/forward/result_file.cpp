@@ -1,6 +1,5 @@
 #include "model/forward/result_file.hpp"
 
-#include "model/forward/version.hpp"
 #include "model/gear/fields.hpp"
 
 #include <fmt/format.h>
@@ -140,7 +139,7 @@ void write_result_file(const ForwardResult& result, const std::string& config, c
   }
   try {
     text(file, "config", config);
-    text(file, "version", version);
+    text(file, "version", STRAINWAVE_VERSION);
     text(file, "status", status_name(result.status));
     text(file, "message", result.message);
     text(file, "fidelity", choice_name(result.fidelity));

@@ -1,6 +1,5 @@
 #include "model/forward/result_json.hpp"
 
-#include "model/forward/version.hpp"
 #include "model/gear/fields.hpp"
 
 #include <nlohmann/json.hpp>
@@ -59,7 +58,7 @@ Json result_json(const ForwardResult& result) {
   Json json;
   json["gear"] = result.gear;
   json["fidelity"] = choice_name(result.fidelity);
-  json["version"] = version;
+  json["version"] = STRAINWAVE_VERSION;
   json["status"] = status_name(result.status);
   json["message"] = result.message;
   if (const auto& wg = result.wave_generator) {
