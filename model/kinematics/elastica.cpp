@@ -1,0 +1,340 @@
+// Two discs, geometrically exact: an inextensible elastica of length 2 pi r_m on two rigid discs (centres
+// (+-e, 0), radius R = r_m + u0 - e to the neutral line). On the disc the curve is the arc; the free part
+// obeys psi'' = h sin psi.
+//
+// shooting.hpp finds the solution to about 1e-9. Here it is brought to rounding and stored: with t in [-1, 1]
+// along the free arc of half-length l, psi at n Chebyshev points satisfies the integrated equation
+//     psi(t) = pi/2 + a + (l/R)(t + 1) + l^2 h int int sin psi,     psi(1) = pi,     e + R cos a + l int cos
+//     psi = 0, and  e = given  or  polar lift-off angle = given,
+// n + 3 equations for psi, a, h, e, solved by Newton (two steps). The same factorization gives the
+// derivatives with respect to r_m, u0 and the given number (implicit differentiation). A pose is then one sum
+// of three series. Seed gear: lift-off at 50.342648 degrees about the disc's centre, N/EI = -0.00210823
+// mm^-2.
+
+#include "model/kinematics/chebyshev.hpp"
+#include "model/kinematics/curve_shape.hpp"
+#include "model/kinematics/derivative.hpp"
+#include "model/kinematics/shooting.hpp"
+#include "model/kinematics/wrap.hpp"
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace strainwave {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double quarter = 0.5 * pi;
+
+/// The integrated equations at n points. Unknowns: psi at the points, then a, h, e.
+class Collocation {
+public:
+  Collocation(const ElasticaProblem& problem, int points) : problem_(problem), grid_(chebyshev_grid(points)) {
+    twice_ = grid_.integral * grid_.integral;
+  }
+
+  const ChebyshevGrid& grid() const { return grid_; }
+
+  Eigen::VectorXd start(const LiftOff& lift_off) const {
+    const double radius = problem_.neutral_radius_mm + problem_.u0_mm - lift_off.eccentricity_mm;
+    const double half = 0.5 * (quarter * problem_.neutral_radius_mm - radius * lift_off.arc_rad);
+    Eigen::VectorXd x(grid_.size + 3);
+    // From lift-off to pi with the given initial curvature: near enough for Newton, the true psi is almost
+    // straight.
+    for (int j = 0; j < grid_.size; ++j) {
+      const double way = 0.5 * (grid_.nodes[j] + 1.0), begin = quarter + lift_off.arc_rad;
+      const double slope = 2.0 * half / radius;
+      x[j] = begin + slope * way + (pi - begin - slope) * way * way;
+    }
+    x.tail<3>() << lift_off.arc_rad, lift_off.n_over_ei_per_mm2, lift_off.eccentricity_mm;
+    return x;
+  }
+
+  /// Residual F, Jacobian dF/dx, and dF/d(r_m, u0, given).
+  void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& f, Eigen::MatrixXd& jacobian,
+                Eigen::Matrix<double, Eigen::Dynamic, 3>& by_parameter) const {
+    const int n = grid_.size;
+    const double a = x[n], h = x[n + 1], e = x[n + 2];
+    const double radius = problem_.neutral_radius_mm + problem_.u0_mm - e;
+    const double half = 0.5 * (quarter * problem_.neutral_radius_mm - radius * a);
+    // Derivatives of R and l with respect to a, e and to r_m, u0.
+    const double half_a = -0.5 * radius, half_e = 0.5 * a, half_rm = 0.5 * (quarter - a), half_u0 = -0.5 * a;
+    const double ratio = half / radius; // l/R
+    const auto ratio_by = [&](double half_by, double radius_by) {
+      return (half_by - ratio * radius_by) / radius;
+    };
+
+    const Eigen::VectorXd sine = x.head(n).array().sin(), cosine = x.head(n).array().cos();
+    const Eigen::VectorXd forward = grid_.nodes.array() + 1.0, bend = twice_ * sine;
+    const Eigen::VectorXd weights = grid_.integral.row(n - 1).transpose();
+    const double half2_h = half * half * h, width = weights.dot(cosine);
+
+    f.resize(n + 3);
+    f.head(n) = x.head(n) - Eigen::VectorXd::Constant(n, quarter + a) - ratio * forward - half2_h * bend;
+    f[n] = x[n - 1] - pi;
+    f[n + 1] = e + radius * std::cos(a) + half * width;
+    const double lx = e + radius * std::cos(a), ly = radius * std::sin(a);
+    f[n + 2] = problem_.eccentricity_given ? e - problem_.given : std::atan2(ly, lx) - problem_.given;
+
+    jacobian.setZero(n + 3, n + 3);
+    jacobian.topLeftCorner(n, n) = -half2_h * (twice_ * cosine.asDiagonal());
+    jacobian.topLeftCorner(n, n).diagonal().array() += 1.0;
+    const auto equation_by = [&](double half_by, double radius_by) -> Eigen::VectorXd {
+      return -ratio_by(half_by, radius_by) * forward - (2.0 * half * half_by * h) * bend;
+    };
+    jacobian.col(n).head(n) = equation_by(half_a, 0.0).array() - 1.0;
+    jacobian.col(n + 1).head(n) = -half * half * bend;
+    jacobian.col(n + 2).head(n) = equation_by(half_e, -1.0);
+    jacobian(n, n - 1) = 1.0;
+    jacobian.row(n + 1).head(n) = -half * weights.cwiseProduct(sine).transpose();
+    jacobian(n + 1, n) = -radius * std::sin(a) + half_a * width;
+    jacobian(n + 1, n + 2) = 1.0 - std::cos(a) + half_e * width;
+    by_parameter.setZero(n + 3, 3);
+    by_parameter.col(0).head(n) = equation_by(half_rm, 1.0);
+    by_parameter.col(1).head(n) = equation_by(half_u0, 1.0);
+    by_parameter(n + 1, 0) = std::cos(a) + half_rm * width;
+    by_parameter(n + 1, 1) = std::cos(a) + half_u0 * width;
+    by_parameter(n + 2, 2) = -1.0;
+    if (problem_.eccentricity_given) {
+      jacobian(n + 2, n + 2) = 1.0;
+    } else {
+      const double square = lx * lx + ly * ly;
+      const auto polar_by = [&](double x_by, double y_by) { return (lx * y_by - ly * x_by) / square; };
+      jacobian(n + 2, n) = polar_by(-radius * std::sin(a), radius * std::cos(a));
+      jacobian(n + 2, n + 2) = polar_by(1.0 - std::cos(a), -std::sin(a));
+      by_parameter(n + 2, 0) = by_parameter(n + 2, 1) = polar_by(std::cos(a), std::sin(a));
+    }
+  }
+
+private:
+  ElasticaProblem problem_;
+  const ChebyshevGrid& grid_;
+  Eigen::MatrixXd twice_;
+};
+
+class Elastica final : public CurveShape {
+public:
+  /// Solution x of the collocation and its derivatives (one column each for r_m, u0, given number).
+  Elastica(const ElasticaProblem& problem, const ChebyshevGrid& grid, const Eigen::VectorXd& x,
+           const Eigen::Matrix<double, Eigen::Dynamic, 3>& dx)
+      : radius_m_(problem.neutral_radius_mm), size_(grid.size) {
+    const int n = size_;
+    const Number rm(radius_m_, 3, 0), u0(problem.u0_mm, 3, 1);
+    arc_ = Number(x[n], dx.row(n).transpose());
+    e_ = Number(x[n + 2], dx.row(n + 2).transpose());
+    n_over_ei_ = x[n + 1];
+    radius_ = rm + u0 - e_;
+    lift_off_s_ = radius_ * arc_;
+    half_ = Number(0.5 * (quarter * rm - lift_off_s_));
+    const Number lift_x = e_ + radius_ * cos(arc_), lift_y = radius_ * sin(arc_);
+    lift_off_polar_ = std::atan2(lift_y.value(), lift_x.value());
+    // x, y, psi at the nodes, then their derivatives with respect to each parameter at fixed t.
+    Eigen::MatrixXd at_nodes(n, 12);
+    const Eigen::VectorXd sine = x.head(n).array().sin(), cosine = x.head(n).array().cos();
+    const Eigen::VectorXd along_x = grid.integral * cosine, along_y = grid.integral * sine;
+    const double half = half_.value();
+    at_nodes.col(0) = half * along_x.array() + lift_x.value();
+    at_nodes.col(1) = half * along_y.array() + lift_y.value();
+    at_nodes.col(2) = x.head(n);
+    for (Eigen::Index p = 0; p < 3; ++p) {
+      const Eigen::VectorXd turn = dx.col(p).head(n);
+      at_nodes.col(3 + 3 * p) = half_.derivatives()[p] * along_x.array() + lift_x.derivatives()[p] -
+                                (half * (grid.integral * sine.cwiseProduct(turn))).array();
+      at_nodes.col(4 + 3 * p) = half_.derivatives()[p] * along_y.array() + lift_y.derivatives()[p] +
+                                (half * (grid.integral * cosine.cwiseProduct(turn))).array();
+      at_nodes.col(5 + 3 * p) = turn;
+    }
+    const Eigen::MatrixXd coefficients = grid.coefficients * at_nodes;
+    values_.resize(static_cast<std::size_t>(3 * n));
+    derivatives_.resize(static_cast<std::size_t>(9 * n));
+    for (int k = 0; k < n; ++k)
+      for (int m = 0; m < 12; ++m) {
+        if (m < 3)
+          values_[static_cast<std::size_t>(3 * k + m)] = coefficients(k, m);
+        else
+          derivatives_[static_cast<std::size_t>(9 * k + m - 3)] = coefficients(k, m);
+      }
+  }
+
+  CurveSummary summary() const override {
+    const double u0 = radius_.value() + e_.value() - radius_m_;
+    return {.u0_mm = u0,
+            .u90_mm = pose(quarter).rho_mm - radius_m_,
+            .perimeter_excess_mm = 0.0,
+            .wrap_angle_rad = lift_off_polar_,
+            .lift_off_arc_rad = arc_.value(),
+            .n_over_ei_per_mm2 = n_over_ei_,
+            .eccentricity_mm = e_.value(),
+            .disc_radius_mm = radius_.value()};
+  }
+
+  Pose pose(double phi) const override {
+    const Point p = point(radius_m_ * phi);
+    const double polar = std::atan2(p.y, p.x);
+    return {std::hypot(p.x, p.y), polar, p.psi - quarter - polar};
+  }
+
+  PoseDerivatives pose_derivatives(double phi) const override {
+    const double s = radius_m_ * phi;
+    const Point p = point(s);
+    // Columns: s, then r_m, u0, given number at fixed s.
+    std::array<double, 4> dx{std::cos(p.psi)}, dy{std::sin(p.psi)}, dpsi{p.curvature};
+    if (s <= lift_off_s_.value()) {
+      const Number angle = s / radius_;
+      const Number x = e_ + radius_ * cos(angle), y = radius_ * sin(angle);
+      for (std::size_t j = 0; j < 3; ++j) {
+        const auto at = static_cast<Eigen::Index>(j);
+        dx[j + 1] = x.derivatives()[at];
+        dy[j + 1] = y.derivatives()[at];
+        dpsi[j + 1] = angle.derivatives()[at];
+      }
+    } else {
+      const double t = position(s);
+      const auto fixed_t = chebyshev_sum<9>(derivatives_.data(), size_, t);
+      for (std::size_t j = 0; j < 3; ++j) {
+        const auto at = static_cast<Eigen::Index>(j);
+        // s = lift_off + half (t + 1): what moves in s at fixed t is taken back.
+        const double ds = -(lift_off_s_.derivatives()[at] + half_.derivatives()[at] * (t + 1.0));
+        dx[j + 1] = fixed_t[3 * j] + dx[0] * ds;
+        dy[j + 1] = fixed_t[3 * j + 1] + dy[0] * ds;
+        dpsi[j + 1] = fixed_t[3 * j + 2] + dpsi[0] * ds;
+      }
+    }
+    // s = r_m phi.
+    const auto to_angles = [&](std::array<double, 4>& d) {
+      d[by_neutral_radius] += d[0] * phi;
+      d[by_material_angle] *= radius_m_;
+    };
+    to_angles(dx);
+    to_angles(dy);
+    to_angles(dpsi);
+    const double rho = std::hypot(p.x, p.y), polar = std::atan2(p.y, p.x);
+    PoseDerivatives result;
+    result.value = {rho, polar, p.psi - quarter - polar};
+    for (std::size_t j = 0; j < 4; ++j) {
+      result.rho[j] = (p.x * dx[j] + p.y * dy[j]) / rho;
+      result.phi1[j] = (p.x * dy[j] - p.y * dx[j]) / (rho * rho);
+      result.normal_rotation[j] = dpsi[j] - result.phi1[j];
+    }
+    return result;
+  }
+
+  RadialDisplacement displacement(double polar) const override {
+    // Newton for the arc length at this polar angle; d(polar)/ds = sin(psi - polar)/rho.
+    double s = radius_m_ * polar;
+    Point p{};
+    for (int step = 0; step < 12; ++step) {
+      p = point(std::clamp(s, 0.0, quarter * radius_m_));
+      const double here = std::atan2(p.y, p.x), rho = std::hypot(p.x, p.y);
+      const double correction = (polar - here) * rho / std::sin(p.psi - here);
+      s += correction;
+      if (std::abs(correction) < 1e-15 * radius_m_)
+        break;
+    }
+    p = point(std::clamp(s, 0.0, quarter * radius_m_));
+    const double rho = std::hypot(p.x, p.y), across = p.psi - std::atan2(p.y, p.x);
+    const double cotangent = std::cos(across) / std::sin(across), sine = std::sin(across);
+    const double first = rho * cotangent;
+    const double turn = p.curvature * rho / sine - 1.0; // d(psi - polar)/d(polar)
+    return {rho - radius_m_, first, first * cotangent - rho * turn / (sine * sine)};
+  }
+
+private:
+  using Number = Dual<3>;
+  struct Point {
+    double x, y, psi, curvature;
+  };
+
+  double position(double s) const { return (s - lift_off_s_.value()) / half_.value() - 1.0; }
+
+  Point point(double s) const {
+    if (s <= lift_off_s_.value()) {
+      const double radius = radius_.value(), angle = s / radius;
+      return {e_.value() + radius * std::cos(angle), radius * std::sin(angle), quarter + angle, 1.0 / radius};
+    }
+    const auto v = chebyshev_sum<3>(values_.data(), size_, std::min(position(s), 1.0));
+    const double lift_y = radius_.value() * std::sin(arc_.value());
+    return {v[0], v[1], v[2], 1.0 / radius_.value() + n_over_ei_ * (v[1] - lift_y)};
+  }
+
+  double radius_m_;
+  int size_;
+  Number arc_, e_, radius_, lift_off_s_, half_;
+  double n_over_ei_ = 0.0, lift_off_polar_ = 0.0;
+  std::vector<double> values_;      // series of x, y, psi over the free arc
+  std::vector<double> derivatives_; // of (x, y, psi) by r_m, by u0, by the given number, at fixed t
+};
+
+Failure not_converged(const ElasticaProblem& problem, const std::string& what) {
+  return {Status::not_converged,
+          fmt::format("two_disc_exact (r_m {} mm, u0 {} mm, {} {}): {}", problem.neutral_radius_mm,
+                      problem.u0_mm, problem.eccentricity_given ? "eccentricity_mm" : "lift-off angle in rad",
+                      problem.given, what)};
+}
+
+} // namespace
+
+MadeShape make_elastica(const WaveGenerator& generator, double radius) {
+  const auto wrap = first_order_wrap(generator);
+  if (!wrap)
+    return wrap.failure();
+  const double u0 = generator.max_radial_deformation_mm;
+  const bool by_eccentricity = generator.eccentricity_mm.has_value();
+  const ElasticaProblem problem{.neutral_radius_mm = radius,
+                                .u0_mm = u0,
+                                .eccentricity_given = by_eccentricity,
+                                .given = by_eccentricity ? *generator.eccentricity_mm : wrap->wrap_angle_rad};
+  // First order: kappa = 1/r - (u + u'')/r^2 and u + u'' = const + 2 k sin phi, so N/EI = -2 k/r^3.
+  const double k = TwoDisc<double>(u0, wrap->wrap_angle_rad).k;
+  const auto shot = shoot(problem, {.arc_rad = wrap->wrap_angle_rad,
+                                    .n_over_ei_per_mm2 = -2.0 * k / (radius * radius * radius),
+                                    .eccentricity_mm = wrap->eccentricity_mm});
+  if (!shot)
+    return shot.failure();
+
+  for (int points : {16, 24, 32, 48, 64}) {
+    const Collocation collocation(problem, points);
+    Eigen::VectorXd x = collocation.start(*shot), residual;
+    Eigen::MatrixXd jacobian;
+    Eigen::Matrix<double, Eigen::Dynamic, 3> by_parameter;
+    Eigen::PartialPivLU<Eigen::MatrixXd> factors;
+    double step = 1.0;
+    for (int iteration = 0; iteration < 12 && step > 1e-13; ++iteration) {
+      collocation.evaluate(x, residual, jacobian, by_parameter);
+      factors.compute(jacobian);
+      const Eigen::VectorXd correction = factors.solve(residual);
+      x -= correction;
+      step = correction.head(points).cwiseAbs().maxCoeff();
+    }
+    if (!(step < 1e-11))
+      continue;
+    const Eigen::VectorXd series = collocation.grid().coefficients * x.head(points);
+    if (chebyshev_tail(series) > 1e-15 && points < 64)
+      continue;
+    const double arc = x[points];
+    // Two ways to the same numbers: CVODES + KINSOL, and the collocation.
+    if (!(std::abs(arc - shot->arc_rad) < 1e-6))
+      return not_converged(problem,
+                           fmt::format("shooting and collocation disagree on the lift-off arc: {} and {} rad",
+                                       shot->arc_rad, arc));
+    if (!(arc > 0.0))
+      return Failure{
+          Status::no_wrap,
+          fmt::format(
+              "two_disc_exact: the elastica would lift off at {:.4f} degrees, so the discs do not wrap "
+              "it: e/u0 = {:.4f} is too close to the upper limit 5.279",
+              arc * 180.0 / pi, wrap->eccentricity_mm / u0)};
+    const Eigen::Matrix<double, Eigen::Dynamic, 3> derivatives = -factors.solve(by_parameter);
+    auto elastica = std::make_shared<Elastica>(problem, collocation.grid(), x, derivatives);
+    if (auto failure = check_wrap_agreement(generator, *elastica->summary().wrap_angle_rad))
+      return *failure;
+    return std::shared_ptr<const CurveShape>(std::move(elastica));
+  }
+  return not_converged(problem, "no smooth free arc was found");
+}
+
+} // namespace strainwave

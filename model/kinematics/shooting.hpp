@@ -1,0 +1,33 @@
+#pragma once
+// The two-disc elastica as a shooting problem, solved with SUNDIALS: CVODES (Adams) integrates the free arc,
+// KINSOL (Newton) finds the lift-off arc a, the curvature slope h = N/EI and, when the wrap angle is given
+// instead, the eccentricity.
+//
+//     x' = cos psi, y' = sin psi, psi' = kappa = 1/R + h (y - y_L)          (kappa' = h sin psi, integrated
+//     once) at lift-off   x = e + R cos a,  y = y_L = R sin a,  psi = pi/2 + a,  arc length R a at the minor
+//     axis, arc length pi r_m/2:   x = 0, psi = pi
+// R = r_m + u0 - e. Integration starts at the lift-off because the slope of the curvature jumps there.
+
+#include "model/gear/outcome.hpp"
+
+namespace strainwave {
+
+struct ElasticaProblem {
+  double neutral_radius_mm = 0.0;
+  double u0_mm = 0.0;
+  /// Which of the two numbers is given: eccentricity [mm], or the polar angle of lift-off [rad].
+  bool eccentricity_given = true;
+  double given = 0.0;
+};
+
+struct LiftOff {
+  double arc_rad = 0.0;           ///< a, angle about the disc's centre
+  double n_over_ei_per_mm2 = 0.0; ///< h
+  double eccentricity_mm = 0.0;
+};
+
+/// From a start (the first-order solution is a good one) to the solution, errors about 100 times the relative
+/// tolerance.
+Outcome<LiftOff> shoot(const ElasticaProblem&, const LiftOff& start, double relative_tolerance = 1e-10);
+
+} // namespace strainwave

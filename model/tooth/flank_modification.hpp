@@ -1,0 +1,33 @@
+#pragma once
+// Material removed from a flank, along its normal.
+//
+// Flank coordinate h: flexspline 0 at its root circle, 1 at its tip; circular spline 0 at its tip circle, 1
+// at its root; linear in radius. Face coordinate zeta: -1 at the diaphragm's end of the face, 0 mid face, +1
+// at the open end. With q = h on the flexspline and 1 - h on the circular spline (so q runs from the member's
+// root to its tip), the removal is the sum of
+//     tip relief     A ((q - start)/(1 - start))^power   for q > start
+//     root relief    B (start - q)/start                  for q < start
+//     crowning       C (2 h - 1)^2
+//     slope S        S h when S > 0, |S| (1 - h) when S < 0
+//     spline         natural cubic spline through equidistant values from h = 0 to 1 (one value: constant,
+//     two: straight) lead crowning  L zeta^2;  lead taper K: K (1 + zeta)/2 when K > 0, |K| (1 - zeta)/2 when
+//     K < 0 end relief     E (1 - d/length)^2 for a distance d < length from either end of the face.
+// The total must not be negative. Derivatives with respect to slope and taper are one-sided at zero (towards
+// positive values).
+
+#include "model/gear/gear.hpp"
+#include "model/gear/outcome.hpp"
+
+#include <optional>
+
+namespace strainwave {
+
+enum class Member { flexspline, circular_spline };
+
+/// Removal [mm] at flank coordinate h and face coordinate zeta. face_width_mm is needed by end relief only.
+double removal_mm(const FlankModification&, Member, double h, double zeta, double face_width_mm);
+
+/// The sentence for a modification that would add material somewhere, or whose numbers have no meaning.
+std::optional<Failure> find_added_material(const FlankModification&, Member, double face_width_mm);
+
+} // namespace strainwave

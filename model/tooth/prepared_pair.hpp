@@ -1,0 +1,90 @@
+#pragma once
+// What FlankPair keeps: flanks and their breaks, known before any pose. Internal to this room.
+
+#include "model/tooth/flank_gap.hpp"
+
+#include <vector>
+
+namespace strainwave {
+
+struct FlankPair::Prepared {
+  ToothPair<double> pair;
+  double neutral_radius = 0.0;
+  double teeth_ratio = 0.0; ///< z1/z2
+  double zeta = 0.0;
+  double inner_radius = 0.0,
+         outer_radius = 0.0;                  ///< circular-spline flank's end points, modification included
+  std::vector<double> flexspline_breaks;      ///< roll angles
+  std::vector<double> circular_spline_breaks; ///< radii
+};
+
+/// The teeth a gear's window selects, for one phase: index, folded material angle, lobe; ascending on each
+/// lobe.
+struct SelectedTooth {
+  int tooth, lobe;
+  double folded_rad;
+};
+std::vector<SelectedTooth> selected_teeth(const Gear&, double phase);
+
+/// contact.window_deg in rad, or (-90, 90] degrees.
+struct Window {
+  double lo, hi;
+};
+Window window_of(const Gear&);
+
+/// Gap and contact radius at the minimiser `found`, carried to dual numbers: the place where the gap is least
+/// moves with the parameters (an edge with its edge, an inner minimum so that its slope stays zero). N
+/// parameters, and one more slot inside.
+template <int N>
+struct ContactDerivatives {
+  Eigen::Matrix<double, N, 1> backlash, radius;
+};
+
+template <int M>
+ContactDerivatives<M - 1> contact_derivatives(const ToothPair<Dual<M>>& pair, const Placement<Dual<M>>& place,
+                                              const ToothBacklash& found) {
+  using T = Dual<M>;
+  const Flank<T>& tooth = pair.flexspline;
+  const Flank<T>& space = pair.circular_spline;
+  const auto meet = [&](const T& t2) {
+    return roll_at_world_radius(tooth, place, circular_spline_radius(space, t2), found.roll);
+  };
+  T t;
+  switch (found.place) {
+  case ContactPlace::flank:
+    t = T(found.roll, M, M - 1);
+    break;
+  case ContactPlace::flexspline_tip:
+    t = tooth.t_outer;
+    break;
+  case ContactPlace::flexspline_root:
+    t = tooth.t_inner;
+    break;
+  case ContactPlace::circular_spline_tip:
+    t = meet(space.t_inner);
+    break;
+  case ContactPlace::circular_spline_root:
+    t = meet(space.t_outer);
+    break;
+  case ContactPlace::flexspline_kink:
+    t = tooth.roll_at_height(tooth.removal.breaks()[static_cast<std::size_t>(found.kink)]);
+    break;
+  case ContactPlace::circular_spline_kink:
+    t = meet(space.roll_at_height(space.removal.breaks()[static_cast<std::size_t>(found.kink)]));
+    break;
+  }
+  const Gap<T> at = flank_gap(pair, place, t);
+  ContactDerivatives<M - 1> result;
+  result.backlash = at.gap.derivatives().template head<M - 1>();
+  result.radius = at.radius.derivatives().template head<M - 1>();
+  if (found.place == ContactPlace::flank) {
+    // d(slope) = 0 along the minimiser; the gap itself does not feel dt (envelope theorem).
+    const double curvature = at.slope.derivatives()[M - 1];
+    const Eigen::Matrix<double, M - 1, 1> dt =
+        at.slope.derivatives().template head<M - 1>() * (-1.0 / curvature);
+    result.radius += at.radius.derivatives()[M - 1] * dt;
+  }
+  return result;
+}
+
+} // namespace strainwave
