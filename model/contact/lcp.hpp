@@ -104,6 +104,7 @@ private:
   void residual(const ContactProblem& problem);
   bool block_steps(const ContactProblem& problem, const ContactOptions& options);
   void single_pivots(const ContactProblem& problem);
+  void pivot_to_optimum(const ContactProblem& problem);
   void drop_tension(const ContactProblem& problem);
   void remove_position(int position);
   void solve_constrained(const ContactProblem& problem, const ContactOptions& options);

@@ -235,4 +235,32 @@ void add_columns(const Eigen::MatrixXd& m, std::span<const int> order, const dou
   }
 }
 
+void add_columns(const Eigen::MatrixXd& m, std::span<const int> order, const double* x, const double* y, double* out_x,
+                 double* out_y) {
+  const auto n = static_cast<std::size_t>(m.rows());
+  const double* const data = m.data();
+  double *__restrict u = out_x, *__restrict v = out_y;
+  std::size_t p = 0;
+  for (; p + 4 <= order.size(); p += 4) {
+    const double* a = data + static_cast<std::size_t>(order[p]) * n;
+    const double* b = data + static_cast<std::size_t>(order[p + 1]) * n;
+    const double* c = data + static_cast<std::size_t>(order[p + 2]) * n;
+    const double* d = data + static_cast<std::size_t>(order[p + 3]) * n;
+    const double xa = x[p], xb = x[p + 1], xc = x[p + 2], xd = x[p + 3];
+    const double ya = y[p], yb = y[p + 1], yc = y[p + 2], yd = y[p + 3];
+    for (std::size_t i = 0; i < n; ++i) {
+      u[i] += (xa * a[i] + xb * b[i]) + (xc * c[i] + xd * d[i]);
+      v[i] += (ya * a[i] + yb * b[i]) + (yc * c[i] + yd * d[i]);
+    }
+  }
+  for (; p < order.size(); ++p) {
+    const double* a = data + static_cast<std::size_t>(order[p]) * n;
+    const double xa = x[p], ya = y[p];
+    for (std::size_t i = 0; i < n; ++i) {
+      u[i] += xa * a[i];
+      v[i] += ya * a[i];
+    }
+  }
+}
+
 } // namespace strainwave

@@ -71,4 +71,8 @@ private:
 /// out = base + Σ_p x_p M(:, order_p); all n rows. Four columns at a time.
 void add_columns(const Eigen::MatrixXd& m, std::span<const int> order, const double* x, const double* base, double* out);
 
+/// The same for two vectors, reading M once: out_x += Σ x_p M(:, order_p), out_y += Σ y_p M(:, order_p).
+void add_columns(const Eigen::MatrixXd& m, std::span<const int> order, const double* x, const double* y, double* out_x,
+                 double* out_y);
+
 } // namespace strainwave

@@ -125,9 +125,14 @@ void ContactSolver::remove_position(int position) {
   factor_.remove(position);
 }
 
-/// Lawson–Hanson: the most negative gap enters (lowest index on a tie); whoever would be pulled leaves on the way.
 void ContactSolver::single_pivots(const ContactProblem& problem) {
   drop_tension(problem);
+  pivot_to_optimum(problem);
+}
+
+/// Lawson–Hanson: the most negative gap enters (lowest index on a tie); whoever would be pulled leaves on the way.
+/// Starts from the factor's set with its solution in x_, all constrained ones positive.
+void ContactSolver::pivot_to_optimum(const ContactProblem& problem) {
   rejected_.assign(closed_.size(), 0);
   const int limit = 50 * problem.size() + 100;
   for (int pivot = 0; pivot < limit; ++pivot) {
@@ -170,7 +175,6 @@ void ContactSolver::single_pivots(const ContactProblem& problem) {
         std::copy_n(trial_.begin(), k, x_.begin());
         break;
       }
-      for (int p = k - 1; p >= 0; --p) rejected_.data()[factor_.order()[static_cast<std::size_t>(p)]] = 0;
       std::vector<int>& leaving = list_;
       leaving.clear();
       for (int p = 0; p < k; ++p)
