@@ -33,7 +33,9 @@ ExitCode read_and_run(int argc, char** argv) {
   } catch (const CLI::CallForVersion& version) {
     print(std::string(version.what()) + "\n");
     return ExitCode::done;
-  } catch (const CLI::Success&) { // --help
+  } catch (const CLI::Success&) {                                  // --help
+    if (app.get_subcommands().empty() && !app.remaining().empty()) // strainwave chek --help
+      throw UsageError(wrong_use_sentence(app, CLI::ExtrasError(app.remaining())));
     print(app.help());
     return ExitCode::done;
   } catch (const CLI::ParseError& error) {

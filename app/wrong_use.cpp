@@ -42,7 +42,8 @@ std::vector<std::string> legal_commands(const CLI::App& command) {
 }
 
 std::string unknown(std::string_view what, const std::string& word, const std::vector<std::string>& legal) {
-  const std::vector<std::string_view> views(legal.begin(), legal.end());
+  std::vector<std::string_view> views(legal.begin(), legal.end());
+  views.insert(views.end(), {"--help", "--version"}); // strainwave help
   const Nearest nearest = nearest_name(word, views);
   if (nearest.name.empty())
     return fmt::format("{} is not expected here", word);

@@ -239,6 +239,14 @@ std::string unknown_key_sentence(std::string_view path, std::string* nearest) {
       return answer(field.path, "no such key here; " + std::string(key) + " belongs to [" +
                                     std::string(field.table()) + "]");
     }
+  std::vector<std::string_view> leaves;
+  for (const Field& field : gear_fields())
+    leaves.push_back(field.key());
+  if (const Nearest leaf = nearest_name(key, leaves); leaf.close && leaf.distance <= 2)
+    for (const Field& field : gear_fields())
+      if (field.key() == leaf.name && !field.table().empty())
+        return answer(field.path, "no such key here; did you mean " + std::string(leaf.name) + " in [" +
+                                      std::string(field.table()) + "]?");
   const Nearest anywhere = nearest_name(path, all);
   if (anywhere.close)
     return answer(anywhere.name, "no such key; did you mean " + std::string(anywhere.name) + "?");

@@ -15,9 +15,9 @@ char folded(char letter) {
 }
 
 bool lacks_ending(std::string_view wrong, std::string_view whole) {
-  if (wrong.size() < 2 || wrong.size() >= whole.size() || whole[wrong.size()] != '_')
+  if (wrong.size() < 3 || wrong.size() >= whole.size())
     return false;
-  return std::equal(wrong.begin(), wrong.end(), whole.begin(), [](char a, char b) { return folded(a) == b; });
+  return std::equal(wrong.begin(), wrong.end(), whole.begin(), [](char a, char b) { return folded(a) == folded(b); });
 }
 
 } // namespace

@@ -40,17 +40,19 @@ private:
         if (const toml::table* inside = node.as_table())
           read_table(*inside, path);
         else
-          faults_.push_back({place_of(key), path,
-                             fmt::format("expected a table, opened by [{}], got {}", path, node_words(node)),
-                             ""});
+          faults_.push_back(
+              {place_of(key), path,
+               node.is_array_of_tables()
+                   ? fmt::format("this table is opened with single brackets: [{}]", path)
+                   : fmt::format("expected a table, opened by [{}], got {}", path, node_words(node)),
+               ""});
       } else {
-        complain_about_unknown(path, table_path, key, node);
+        complain_about_unknown(path, key, node);
       }
     }
   }
 
-  void complain_about_unknown(const std::string& path, const std::string& table_path, const toml::key& key,
-                              const toml::node& node) {
+  void complain_about_unknown(const std::string& path, const toml::key& key, const toml::node& node) {
     FileFault fault{place_of(key), path, "", ""};
     const bool table_like = node.is_table() || (node.is_array_of_tables() && !node.as_array()->empty());
     if (table_like) {
@@ -64,10 +66,6 @@ private:
                            : fmt::format("no such table; the nearest legal one is [{}]", nearest.name);
     } else {
       fault.sentence = unknown_key_sentence(path, &fault.nearest);
-      if (table_path.empty() && find_table(fault.nearest.substr(0, fault.nearest.rfind('.'))))
-        fault.sentence =
-            fmt::format("no such key at the top of the file, above all tables; the nearest legal key is {}",
-                        fault.nearest);
     }
     meant_.insert(fault.nearest);
     faults_.push_back(std::move(fault));

@@ -30,6 +30,8 @@ std::string missing_file_sentence(const fs::path& path, std::string_view kind) {
   std::string sentence = fmt::format("no such {}", kind);
   if (nearest.close)
     sentence += fmt::format("; did you mean {}?", (path.parent_path() / nearest.name).string());
+  else if (kind == "gear file")
+    sentence += "; `strainwave example` prints one to start from";
   return sentence;
 }
 
