@@ -15,6 +15,7 @@ using Command = std::function<ExitCode()>;
 
 void add_example(CLI::App& app, Command& chosen);
 void add_schema(CLI::App& app, Command& chosen);
+void add_analyze(CLI::App& app, Command& chosen);
 void add_check(CLI::App& app, Command& chosen);
 
 /// The text of studies/gallery/seed.toml.

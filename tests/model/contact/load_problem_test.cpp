@@ -64,7 +64,9 @@ TEST_F(SeedGearOnReferenceCup, AssembledWallStandsWhereTheLinearisedDiscsHoldIt)
     const WallStation& s = assembled.stations[i];
     const double force = assembled.force_n(static_cast<Eigen::Index>(i));
     EXPECT_GE(force, 0.0);
-    if (s.row == 1) EXPECT_EQ(force, 0.0);
+    if (s.row == 1) {
+      EXPECT_EQ(force, 0.0);
+    }
     if (s.row == 0) rear += force;
     if (s.row == 2) front += force;
     if (s.row == 0 && std::abs(s.phi_rad) < 1e-9) {

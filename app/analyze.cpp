@@ -1,0 +1,74 @@
+#include "app/commands.hpp"
+#include "app/output.hpp"
+#include "app/result_table.hpp"
+#include "model/forward/forward.hpp"
+#include "model/forward/result_file.hpp"
+#include "model/forward/result_json.hpp"
+#include "model/gear/fields.hpp"
+#include "model/gear_file/gear_file.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace strainwave::app {
+
+namespace {
+
+struct AnalyzeOptions {
+  std::string file;
+  std::vector<double> torque_nm;
+  std::vector<double> rotation_rad;
+  std::string only;
+  bool json = false;
+  bool no_cache = false;
+  std::string out;
+  int threads = 0;
+};
+
+ExitCode analyze(const AnalyzeOptions& options) {
+  Gear gear = load_gear(options.file).gear;
+  if (!options.torque_nm.empty() || !options.rotation_rad.empty()) {
+    gear.load.torque_nm.clear();
+    gear.load.rotation_rad.clear();
+    if (!options.torque_nm.empty()) set_value(gear, "load.torque_nm", options.torque_nm);
+    if (!options.rotation_rad.empty()) set_value(gear, "load.rotation_rad", options.rotation_rad);
+  }
+  const Want want = options.only == "backlash"     ? Want::backlash
+                    : options.only == "compliance" ? Want::compliance
+                                                   : Want::load;
+  ForwardModel model({.disk_cache = !options.no_cache, .threads = options.threads});
+  const ForwardResult result = model.analyze(gear, want);
+  for (const std::string& warning : result.warnings) report(warning);
+  print(options.json ? result_json_text(result) + "\n" : result_table(result));
+  if (!options.out.empty()) write_result_file(result, write_gear(gear), options.out);
+  if (result.status == Status::ok) return ExitCode::done;
+  report(result.message);
+  return ExitCode::no_result;
+}
+
+} // namespace
+
+void add_analyze(CLI::App& app, Command& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "analyze", "From a gear file to backlash, compliance, meshing forces and torsional stiffness");
+  command->footer("Loads of the command line replace those of the file's [load]. Torques count both lobes.\n"
+                  "The finite elements of a cup are solved once and kept in the cache directory\n"
+                  "($STRAINWAVE_CACHE, else $XDG_CACHE_HOME/strainwave, else ~/.cache/strainwave).\n"
+                  "Examples:  strainwave analyze mygear.toml\n"
+                  "           strainwave analyze mygear.toml --torque-nm 3.5 7 --json\n"
+                  "           strainwave analyze mygear.toml --only backlash");
+  const auto options = std::make_shared<AnalyzeOptions>();
+  command->add_option("FILE", options->file, "A gear file (TOML)")->required();
+  command->add_option("--torque-nm", options->torque_nm, "Output torques, N·m");
+  command->add_option("--rotation-rad", options->rotation_rad, "Rotations of the circular spline, rad");
+  command->add_option("--only", options->only, "Stop after this stage: backlash, compliance or load")
+      ->check(CLI::IsMember({"backlash", "compliance", "load"}));
+  command->add_flag("--json", options->json, "Print one JSON object instead of the table");
+  command->add_option("-o,--out", options->out, "Also write the result to this HDF5 file");
+  command->add_option("--threads", options->threads, "Threads for the finite elements (0: all cores)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--no-cache", options->no_cache, "Neither read nor write the cache of solved cups");
+  command->callback([&chosen, options] { chosen = [options] { return analyze(*options); }; });
+}
+
+} // namespace strainwave::app
