@@ -131,7 +131,9 @@ private:
     add_columns(problem_.m, order, s_.x_.data(), rate_.data(), gap, gap_rate);
     double torque = 0.0;
     for (int i = 0; i < n_; ++i) torque += problem_.r[i] * force[i];
-    path_.segments_.back().torque = torque;
+    // Rounding must not let the torque fall.
+    const double floor = path_.segments_.size() > 1 ? path_.segments_[path_.segments_.size() - 2].torque : -infinity;
+    path_.segments_.back().torque = std::max(floor, torque);
   }
 
   /// What is left of index i until its event, as a step in θ; infinite when it moves away or rests.
