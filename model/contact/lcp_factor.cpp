@@ -12,9 +12,16 @@ namespace strainwave {
 
 namespace {
 
-// Eight doubles side by side; the compiler splits them where the processor has narrower registers.
-typedef double Pack __attribute__((vector_size(64), aligned(8), may_alias));
+// As many doubles side by side as a register of the processor holds.
+#if defined(__AVX512F__)
 constexpr int lanes = 8;
+#elif defined(__AVX__)
+constexpr int lanes = 4;
+#else
+constexpr int lanes = 2;
+#endif
+typedef double Pack __attribute__((vector_size(8 * lanes), aligned(8), may_alias));
+constexpr std::size_t line = 8; ///< doubles of one cache line
 
 inline Pack load(const double* p) { return *reinterpret_cast<const Pack*>(p); }
 inline void store(double* p, const Pack& v) { *reinterpret_cast<Pack*>(p) = v; }
@@ -24,14 +31,16 @@ inline void subtract_scaled(double a, const double* __restrict x, double* __rest
   for (int i = 0; i < n; ++i) y[i] -= a * x[i];
 }
 
-/// Sum in a fixed order: eight partial sums, then pairwise, then the rest.
+/// Sum in a fixed order: one partial sum for each lane, then pairwise, then the rest.
 inline double dot(const double* x, const double* y, int n) {
   double sum = 0.0;
   int i = 0;
   if (n >= lanes) {
     Pack s = load(x) * load(y);
     for (i = lanes; i + lanes <= n; i += lanes) s += load(x + i) * load(y + i);
-    sum = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+    for (int width = lanes / 2; width > 0; width /= 2)
+      for (int c = 0; c < width; ++c) s[c] += s[c + width];
+    sum = s[0];
   }
   for (; i < n; ++i) sum += x[i] * y[i];
   return sum;
@@ -48,12 +57,12 @@ void ActiveFactor::reset(int n) {
   size_ = 0;
   if (n <= capacity_) return;
   capacity_ = n;
-  stride_ = (static_cast<std::size_t>(n) + 2 + 2 * lanes - 1) / lanes * lanes;
-  if (stride_ % 64 == 0) stride_ += lanes; // columns a page apart would share cache sets
-  memory_.assign(stride_ * static_cast<std::size_t>(n) + 2 * lanes, 0.0);
+  stride_ = (static_cast<std::size_t>(n) + 2 + 2 * line - 1) / line * line;
+  if (stride_ % 64 == 0) stride_ += line; // columns a page apart would share cache sets
+  memory_.assign(stride_ * static_cast<std::size_t>(n) + 2 * line, 0.0);
   const auto address = reinterpret_cast<std::uintptr_t>(memory_.data());
   storage_ = memory_.data() + (64 - address % 64) % 64 / sizeof(double);
-  for (auto* v : {&inverse_diagonal_, &yq_, &yr_, &work_}) v->assign(static_cast<std::size_t>(n) + lanes, 0.0);
+  for (auto* v : {&inverse_diagonal_, &yq_, &yr_, &work_}) v->assign(static_cast<std::size_t>(n), 0.0);
   order_.assign(static_cast<std::size_t>(n), 0);
 }
 

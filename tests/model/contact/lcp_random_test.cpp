@@ -175,5 +175,57 @@ TEST(LcpRandom, PathEqualsDirectSolvesAcrossFamilies) {
   }
 }
 
+/// Copies of one random problem, coupled alike: every event concerns all copies at once. Small whole numbers for gaps make
+/// further events coincide; the last `idle` indices are decoupled supports at rest (force and gap zero for every θ).
+ContactProblem many_ties(int n, int copies, int idle, unsigned seed) {
+  const ContactProblem one = random_spd(n, n + 1, 0.1, seed, n / 4);
+  const int total = n * copies + idle;
+  ContactProblem p{Eigen::MatrixXd::Zero(total, total), Eigen::VectorXd::Zero(total), Eigen::VectorXd::Zero(total)};
+  for (int a = 0; a < copies; ++a) {
+    for (int b = 0; b < copies; ++b) p.m.block(a * n, b * n, n, n) = (a == b ? 1.0 : 0.25) * one.m;
+    for (int i = 0; i < n; ++i) {
+      p.q[a * n + i] = static_cast<double>((7 * i + static_cast<int>(seed)) % 4);
+      p.r[a * n + i] = one.r[i] > 0.0 ? 1.0 : 0.0;
+    }
+  }
+  for (int i = n * copies; i < total; ++i) p.m(i, i) = 1.0;
+  return p;
+}
+
+TEST(LcpRandom, PathsThroughManyTiesEqualDirectSolves) {
+  ContactSolver solver;
+  for (unsigned seed = 1; seed <= 80; ++seed) {
+    const int n = 2 + static_cast<int>(seed % 7), copies = 1 + static_cast<int>(seed % 5), idle = static_cast<int>(seed % 3);
+    const ContactProblem problem = many_ties(n, copies, idle, seed);
+    const EventPath path = solver.trace(problem, {.start_rotation = -0.5, .end_rotation = 9.5});
+    ASSERT_EQ(path.end(), EventPath::End::rotation) << seed;
+    for (const PathEvent& event : path.events()) EXPECT_EQ(event.change_count % copies, 0) << seed;
+    for (int i = 0; i <= 200; ++i) { // every fourth lies on a whole number, where gaps close
+      const double rotation = -0.5 + 0.05 * i;
+      const ContactState direct = solver.solve_at(problem, rotation), on_path = path.at(rotation);
+      EXPECT_LT((on_path.force - direct.force).cwiseAbs().maxCoeff(), 1e-12 * std::max(1.0, direct.force.maxCoeff()))
+          << seed << " " << rotation;
+      EXPECT_TRUE(certify(problem, on_path).holds(1e-12)) << seed << " " << rotation;
+      if (static_cast<int>(direct.biactive.size()) > idle) continue; // on an event the slope depends on the last bit
+      EXPECT_NEAR(on_path.stiffness, direct.stiffness, 1e-9 * std::max(1.0, direct.stiffness)) << seed << " " << rotation;
+    }
+  }
+}
+
+TEST(LcpRandom, NearlyRankTwoPathsHoldTheirCertificate) {
+  ContactSolver solver;
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    const ContactProblem problem = random_spd(8, 2, 1e-6, 500 + seed, 3);
+    const EventPath path = solver.trace(problem, {.start_rotation = -2.0, .end_rotation = 2.0});
+    ASSERT_EQ(path.end(), EventPath::End::rotation) << seed;
+    for (int i = 0; i <= 40; ++i) {
+      const double rotation = -2.0 + 0.1 * i;
+      const ContactState direct = solver.solve_at(problem, rotation), on_path = path.at(rotation);
+      EXPECT_TRUE(certify(problem, on_path).holds(1e-9)) << seed << " " << rotation;
+      EXPECT_LT((on_path.force - direct.force).cwiseAbs().maxCoeff(), 1e-8 * std::max(1.0, direct.force.maxCoeff())) << seed;
+    }
+  }
+}
+
 } // namespace
 } // namespace strainwave
