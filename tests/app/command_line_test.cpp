@@ -200,6 +200,15 @@ TEST_F(CommandLine, WrongOptionsNameTheNearest) {
                    "strainwave schema");
 }
 
+TEST_F(CommandLine, WrongValuesOfOptionsSayWhatWasExpected) {
+  const std::string help = "strainwave analyze";
+  expect_wrong_use("analyze g.toml --torque-nm abc", "--torque-nm: expected a number, got abc", help);
+  expect_wrong_use("analyze g.toml --torque-nm", "--torque-nm: the value is missing", help);
+  expect_wrong_use("analyze g.toml --threads -1", "--threads: expected a number of at least 0, got -1", help);
+  expect_wrong_use("analyze g.toml --only backlsh",
+                   "--only: expected backlash, compliance, load, got backlsh; did you mean backlash?", help);
+}
+
 TEST_F(CommandLine, MissingAndSuperfluousArgumentsAreNamed) {
   expect_wrong_use("check", "FILE is required", "strainwave check");
   expect_wrong_use("check a.toml b.toml", "b.toml is one argument too many", "strainwave check");
