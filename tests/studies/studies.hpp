@@ -52,7 +52,7 @@ failure_share = 0.02
 [reduced]
 "method.budget" = 10
 "load_case[0].phases" = 1
-mesh.per_pitch = 2
+mesh.per_pitch = 3
 )";
 
 class StudyFolder {

@@ -55,7 +55,7 @@ TEST(StudyFileRead, ReducedChangesTheStudyAndTheGear) {
   EXPECT_EQ(whole.gear.mesh.per_pitch, seed_gear().mesh.per_pitch);
   EXPECT_EQ(reduced.method.budget, 10);
   EXPECT_EQ(reduced.load_cases[0].phases, 1);
-  EXPECT_EQ(reduced.gear.mesh.per_pitch, 2);
+  EXPECT_EQ(reduced.gear.mesh.per_pitch, 3);
 }
 
 TEST(StudyFileRead, LoadsComeFromTheGearWhereNoneAreGiven) {
@@ -102,7 +102,7 @@ TEST(StudyFileWrite, ReducedChangesSurvive) {
   const StudyFolder folder;
   const std::string text = write_study(folder.read(good_study));
   EXPECT_EQ(folder.read(text, true).method.budget, 10);
-  EXPECT_EQ(folder.read(text, true).gear.mesh.per_pitch, 2);
+  EXPECT_EQ(folder.read(text, true).gear.mesh.per_pitch, 3);
 }
 
 } // namespace

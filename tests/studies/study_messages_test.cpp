@@ -99,8 +99,8 @@ const std::vector<Golden>& goldens() {
        "\"method.budget\", \"load_case[0].phases\" or \"mesh.per_pitch\""},
       {"reduced load case that does not exist", "load_case[0].phases", "load_case[2].phases",
        "study.toml:46:1: reduced.load_case[2].phases: there are only 2 [[load_case]], counted from 0"},
-      {"reduced gear key out of range", "mesh.per_pitch = 2", "mesh.per_pitch = 0",
-       "study.toml:47:18: mesh.per_pitch: must be at least 1 and at most 64, is 0"},
+      {"reduced gear key out of range", "mesh.per_pitch = 3", "mesh.per_pitch = 0",
+       "study.toml:47:18: mesh.per_pitch: must be at least 3 and at most 64, is 0"},
       {"key given twice", "lower = 0.0\n", "lower = 0.0\nlower = 1.0\n",
        "study.toml:17:1: variable.lower: the key is given twice (first in line 16); keep one of the two"},
   };
