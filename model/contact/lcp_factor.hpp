@@ -50,15 +50,19 @@ public:
   double r_q() const; ///< r · M⁻¹ q
   /// x = M_AA⁻¹ (weight_q q_A + weight_r r_A), by position.
   void solve(double weight_q, double weight_r, double* x) const;
+  /// Forces and their rates at a rotation: M_AA⁻¹ (θ r_A − q_A) and M_AA⁻¹ r_A, by position.
+  void solve(double rotation, double* force, double* rate) const;
   /// Solves M_AA x = b in place, by position.
   void solve(double* b) const;
 
 private:
   double* column(int j) { return storage_ + static_cast<std::size_t>(j) * stride_; }
   const double* column(int j) const { return storage_ + static_cast<std::size_t>(j) * stride_; }
-  void back_substitute(double* x) const;
-  double checked_pivot(const ContactProblem& problem, int index, double pivot) const;
+  static double root_of_pivot(int index, double pivot, double diagonal);
   template <int Columns> void update_columns(int first, int rows);
+  template <int Columns> void finish_columns(int first, int rows);
+  void forward_substitute(double* x) const;
+  template <std::size_t Sides> void back_substitute(double* const (&x)[Sides]) const;
 
   int capacity_ = 0, size_ = 0;
   std::size_t stride_ = 0;

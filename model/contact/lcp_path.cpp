@@ -50,7 +50,7 @@ void EventPath::evaluate(std::size_t segment, double rotation, ContactState& sta
   state.fallback = false;
   double force_scale = 0.0, gap_scale = 0.0;
   for (int i = 0; i < n_; ++i) {
-    state.force[i] = active[i] ? force[i] + step * force_rate[i] : 0.0;
+    state.force[i] = active[i] ? std::max(0.0, force[i] + step * force_rate[i]) : 0.0; // rounding at the ends
     state.gap[i] = active[i] ? 0.0 : gap[i] + step * gap_rate[i];
     state.torque += loaded_[static_cast<std::size_t>(i)] * state.force[i];
     force_scale = std::max(force_scale, state.force[i]);

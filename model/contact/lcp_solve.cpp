@@ -188,7 +188,7 @@ void ContactSolver::pivot_to_optimum(const ContactProblem& problem) {
 
 void ContactSolver::find_ties(const ContactOptions& options) {
   ties_.clear();
-  double force_scale = 0.0;
+  double force_scale = largest_diagonal_ > 0.0 ? gap_scale_ / largest_diagonal_ : 0.0; // what would close such a gap
   for (int p = 0; p < factor_.size(); ++p) force_scale = std::max(force_scale, x_[static_cast<std::size_t>(p)]);
   const double small_force = options.tie_tolerance * force_scale, small_gap = options.tie_tolerance * gap_scale_;
   std::size_t position = 0;

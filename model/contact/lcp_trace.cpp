@@ -110,8 +110,7 @@ private:
     path_.data_.resize(4 * path_.segments_.size() * static_cast<std::size_t>(n_));
     path_.active_.insert(path_.active_.end(), s_.closed_.begin(), s_.closed_.end());
     double *force = column(0), *force_rate = column(1), *gap = column(2), *gap_rate = column(3);
-    s_.factor_.solve(-1.0, s_.rotation_, s_.x_.data());
-    s_.factor_.solve(0.0, 1.0, rate_.data());
+    s_.factor_.solve(s_.rotation_, s_.x_.data(), rate_.data());
     s_.iterations_ += 2;
     for (int i = 0; i < n_; ++i) {
       force[i] = force_rate[i] = 0.0;
@@ -131,6 +130,11 @@ private:
     add_columns(problem_.m, order, s_.x_.data(), rate_.data(), gap, gap_rate);
     double torque = 0.0;
     for (int i = 0; i < n_; ++i) torque += problem_.r[i] * force[i];
+    // Continuous, and rounding must not let it fall.
+    if (path_.segments_.size() > 1) {
+      const EventPath::Segment& before = path_.segments_[path_.segments_.size() - 2];
+      torque = before.stiffness > 0.0 ? std::max(before.torque, torque) : before.torque;
+    }
     path_.segments_.back().torque = torque;
   }
 

@@ -1,6 +1,7 @@
 #include "model/tooth/backlash.hpp"
 
 #include "model/tooth/consistency.hpp"
+#include "model/tooth/gear_numbers.hpp"
 #include "model/tooth/prepared_pair.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>
@@ -12,20 +13,41 @@
 #include <numbers>
 
 namespace strainwave {
+double roll_at(const FlankPair::Prepared& prepared, const Placement<double>& place, double root_radius,
+               double tip_radius, double radius) {
+  const Flank<double>& tooth = prepared.pair.flexspline;
+  const double share = (radius - root_radius) / (tip_radius - root_radius);
+  const double start = tooth.t_inner + share * (tooth.t_outer - tooth.t_inner);
+  return std::clamp(roll_at_world_radius(tooth, place, radius, start), tooth.t_inner, tooth.t_outer);
+}
+
+std::optional<Stretch> shared_stretch(const FlankPair::Prepared& prepared, const Placement<double>& place) {
+  const Flank<double>& tooth = prepared.pair.flexspline;
+  const double tip = flank_point(tooth, place, tooth.t_outer).radius;
+  const double root = flank_point(tooth, place, tooth.t_inner).radius;
+  if (!(tip > prepared.inner_radius && root < prepared.outer_radius))
+    return std::nullopt;
+  const auto roll = [&](double radius) { return roll_at(prepared, place, root, tip, radius); };
+  const Mark lo = root >= prepared.inner_radius
+                      ? Mark{tooth.t_inner, ContactPlace::flexspline_root, 0}
+                      : Mark{roll(prepared.inner_radius), ContactPlace::circular_spline_tip, 0};
+  const Mark hi = tip <= prepared.outer_radius
+                      ? Mark{tooth.t_outer, ContactPlace::flexspline_tip, 0}
+                      : Mark{roll(prepared.outer_radius), ContactPlace::circular_spline_root, 0};
+  return Stretch{lo, hi, root, tip};
+}
+
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A point of the flank that ends a smooth stretch of gap(t).
-struct Mark {
-  double t;
-  ContactPlace place;
-  int kink;
-};
-
 /// Sub-intervals for each smooth stretch. Between them a cubic through values and slopes shows where a
 /// minimum hides; the gap is analytic there and its stretches are short against its radius of curvature.
 constexpr int samples = 4;
+
+bool is_kink(const Mark& m) {
+  return m.place == ContactPlace::flexspline_kink || m.place == ContactPlace::circular_spline_kink;
+}
 
 class Search {
 public:
@@ -33,17 +55,23 @@ public:
 
   /// Least gap between two marks; both marks are candidates themselves.
   void stretch(const Mark& from, const Mark& to) {
-    const double width = (to.t - from.t) / samples;
-    Gap<double> left = flank_gap(pair_, place_, from.t);
-    offer(left, from);
-    if (!(width > 0.0))
+    const Gap<double> first = flank_gap(pair_, place_, from.t), last = flank_gap(pair_, place_, to.t);
+    offer(first, from);
+    if (!(to.t > from.t))
       return;
+    offer(last, to);
+    // At a kink the slope belongs to one side or the other by rounding: stay a hair off. A minimum in between
+    // is flat enough to differ from the mark's own value by less than rounding.
+    const double hair = 1e-8 * (to.t - from.t);
+    const double a = is_kink(from) ? from.t + hair : from.t, b = is_kink(to) ? to.t - hair : to.t;
+    const double width = (b - a) / samples;
+    double t = a;
+    Gap<double> left = is_kink(from) ? flank_gap(pair_, place_, a) : first;
     for (int k = 1; k <= samples; ++k) {
-      const double t = k == samples ? to.t : from.t + k * width;
-      const Gap<double> right = flank_gap(pair_, place_, t);
-      inside(t - width, left, t, right, 0);
-      if (k == samples)
-        offer(right, to);
+      const double next = k == samples ? b : a + k * width;
+      const Gap<double> right = k == samples && !is_kink(to) ? last : flank_gap(pair_, place_, next);
+      inside(t, left, next, right, 0);
+      t = next;
       left = right;
     }
   }
@@ -94,23 +122,10 @@ private:
 };
 
 ToothBacklash least_gap(const FlankPair::Prepared& prepared, const Placement<double>& place) {
-  const Flank<double>& tooth = prepared.pair.flexspline;
-  const double tip_radius = flank_point(tooth, place, tooth.t_outer).radius;
-  const double root_radius = flank_point(tooth, place, tooth.t_inner).radius;
-  if (!(tip_radius > prepared.inner_radius && root_radius < prepared.outer_radius))
+  const auto stretch = shared_stretch(prepared, place);
+  if (!stretch)
     return {};
-  const auto roll_at = [&](double radius) {
-    const double share = (radius - root_radius) / (tip_radius - root_radius);
-    const double t =
-        roll_at_world_radius(tooth, place, radius, tooth.t_inner + share * (tooth.t_outer - tooth.t_inner));
-    return std::clamp(t, tooth.t_inner, tooth.t_outer);
-  };
-  const Mark lo = root_radius >= prepared.inner_radius
-                      ? Mark{tooth.t_inner, ContactPlace::flexspline_root, 0}
-                      : Mark{roll_at(prepared.inner_radius), ContactPlace::circular_spline_tip, 0};
-  const Mark hi = tip_radius <= prepared.outer_radius
-                      ? Mark{tooth.t_outer, ContactPlace::flexspline_tip, 0}
-                      : Mark{roll_at(prepared.outer_radius), ContactPlace::circular_spline_root, 0};
+  const auto& [lo, hi, root_radius, tip_radius] = *stretch;
   Search search(prepared.pair, place);
   if (prepared.flexspline_breaks.empty() && prepared.circular_spline_breaks.empty()) {
     search.stretch(lo, hi);
@@ -122,7 +137,8 @@ ToothBacklash least_gap(const FlankPair::Prepared& prepared, const Placement<dou
   for (std::size_t i = 0; i < prepared.circular_spline_breaks.size(); ++i) {
     const double radius = prepared.circular_spline_breaks[i];
     if (radius > root_radius && radius < tip_radius)
-      marks.push_back({roll_at(radius), ContactPlace::circular_spline_kink, static_cast<int>(i)});
+      marks.push_back({roll_at(prepared, place, root_radius, tip_radius, radius),
+                       ContactPlace::circular_spline_kink, static_cast<int>(i)});
   }
   std::erase_if(marks, [&](const Mark& m) {
     const bool kink =
@@ -137,27 +153,12 @@ ToothBacklash least_gap(const FlankPair::Prepared& prepared, const Placement<dou
 
 } // namespace
 
-ToothPair<double> tooth_pair(const Gear& gear, double zeta) {
-  const Flexspline& f = gear.flexspline;
-  const CircularSpline& c = gear.circular_spline;
-  const double alpha = f.pressure_angle_deg * pi / 180.0;
-  ToothPair<double> pair;
-  pair.flexspline.set(0.5 * f.module_mm * f.teeth, alpha, f.profile_shift, f.teeth, f.root_radius_mm,
-                      f.tip_radius_mm);
-  pair.circular_spline.set(0.5 * f.module_mm * c.teeth, alpha, c.profile_shift, c.teeth, c.tip_radius_mm,
-                           c.root_radius_mm);
-  const FlankModifications& m = gear.flank_modification;
-  pair.flexspline.removal = removal_law(m.flexspline, Member::flexspline, zeta, f.face_width_mm);
-  pair.circular_spline.removal =
-      removal_law(m.circular_spline, Member::circular_spline, zeta, f.face_width_mm);
-  return pair;
-}
-
 Outcome<FlankPair> FlankPair::make(const Gear& gear, double zeta) {
   if (auto failure = find_flank_contradiction(gear))
     return *failure;
   auto prepared = std::make_shared<Prepared>();
-  prepared->pair = tooth_pair(gear, zeta);
+  prepared->pair =
+      tooth_pair(gear_numbers<double>(gear), gear.flexspline.teeth, gear.circular_spline.teeth, zeta);
   prepared->neutral_radius = gear.flexspline.neutral_radius_mm;
   prepared->teeth_ratio = static_cast<double>(gear.flexspline.teeth) / gear.circular_spline.teeth;
   prepared->zeta = zeta;

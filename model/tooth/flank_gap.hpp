@@ -172,7 +172,4 @@ T roll_at_world_radius(const Flank<T>& flank, const Placement<T>& place, const T
   });
 }
 
-/// Both flanks of a gear at a section, in plain numbers.
-ToothPair<double> tooth_pair(const Gear&, double zeta);
-
 } // namespace strainwave

@@ -1,6 +1,6 @@
 #include "model/tooth/flank_modification.hpp"
 
-#include "model/tooth/removal.hpp"
+#include "model/tooth/gear_numbers.hpp"
 
 #include <boost/math/tools/minima.hpp>
 #include <fmt/format.h>
@@ -13,6 +13,10 @@ constexpr double mm_per_um = 1e-3;
 const char* table_name(Member member) {
   return member == Member::flexspline ? "flank_modification.flexspline"
                                       : "flank_modification.circular_spline";
+}
+
+RemovalLaw<double> law_of(const FlankModification& m, Member member, double zeta, double face_width_mm) {
+  return removal_law(modification_numbers<double>(m), member, zeta, face_width_mm);
 }
 
 struct Least {
@@ -45,33 +49,9 @@ Least least(const Function& f, const std::vector<double>& points) {
 
 } // namespace
 
-RemovalLaw<double> removal_law(const FlankModification& m, Member member, double zeta, double face_width_mm) {
-  RemovalLaw<double> law;
-  law.on_tip_side_down = member == Member::circular_spline;
-  law.tip_relief = mm_per_um * m.tip_relief_um;
-  law.tip_start = m.tip_relief_start;
-  law.tip_power = m.tip_relief_power;
-  law.root_relief = mm_per_um * m.root_relief_um;
-  law.root_start = m.root_relief_start;
-  law.crowning = mm_per_um * m.crowning_um;
-  law.slope = mm_per_um * m.slope_um;
-  law.lead_crowning = mm_per_um * m.lead_crowning_um;
-  law.lead_taper = mm_per_um * m.lead_taper_um;
-  law.end_relief = mm_per_um * m.end_relief_um;
-  law.end_length = m.end_relief_length_mm;
-  law.zeta = zeta;
-  law.face_width = face_width_mm;
-  for (double value : m.spline_um)
-    law.knots.push_back(mm_per_um * value);
-  law.absent = m.tip_relief_um == 0.0 && m.root_relief_um == 0.0 && m.crowning_um == 0.0 &&
-               m.slope_um == 0.0 && m.spline_um.empty();
-  law.prepare();
-  return law;
-}
-
 double removal_mm(const FlankModification& modification, Member member, double h, double zeta,
                   double face_width_mm) {
-  return removal_law(modification, member, zeta, face_width_mm).at(h).depth;
+  return law_of(modification, member, zeta, face_width_mm).at(h).depth;
 }
 
 std::optional<Failure> find_added_material(const FlankModification& m, Member member, double face_width_mm) {
@@ -90,7 +70,7 @@ std::optional<Failure> find_added_material(const FlankModification& m, Member me
   if (m.end_relief_um != 0.0 && !(m.end_relief_length_mm > 0.0))
     return contradiction(fmt::format("end_relief_um {} needs end_relief_length_mm > 0", m.end_relief_um));
 
-  const RemovalLaw<double> law = removal_law(m, member, 0.0, face_width_mm);
+  const RemovalLaw<double> law = law_of(m, member, 0.0, face_width_mm);
   std::vector<double> heights = law.breaks();
   heights.push_back(0.0);
   heights.push_back(1.0);
@@ -103,7 +83,7 @@ std::optional<Failure> find_added_material(const FlankModification& m, Member me
     std::sort(sections.begin(), sections.end());
   }
   const Least lead =
-      least([&](double zeta) { return removal_law(m, member, zeta, face_width_mm).lead; }, sections);
+      least([&](double zeta) { return law_of(m, member, zeta, face_width_mm).lead; }, sections);
   const double total_um = (profile.value + lead.value) / mm_per_um;
   if (total_um < -1e-9)
     return contradiction(

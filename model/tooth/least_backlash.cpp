@@ -1,3 +1,4 @@
+#include "model/tooth/gear_numbers.hpp"
 #include "model/tooth/prepared_pair.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>
@@ -11,36 +12,6 @@
 namespace strainwave {
 namespace {
 
-/// A flank in plain numbers, seen as one with M zero derivatives.
-template <int M>
-Flank<Dual<M>> constant(const Flank<double>& f) {
-  using T = Dual<M>;
-  Flank<T> c;
-  c.base = T(f.base);
-  c.sigma = T(f.sigma);
-  c.inner_radius = T(f.inner_radius);
-  c.span = T(f.span);
-  c.t_inner = T(f.t_inner);
-  c.t_outer = T(f.t_outer);
-  const RemovalLaw<double>& m = f.removal;
-  RemovalLaw<T>& r = c.removal;
-  r.on_tip_side_down = m.on_tip_side_down;
-  r.tip_relief = T(m.tip_relief);
-  r.tip_start = T(m.tip_start);
-  r.tip_power = T(m.tip_power);
-  r.root_relief = T(m.root_relief);
-  r.root_start = T(m.root_start);
-  r.crowning = T(m.crowning);
-  r.slope = T(m.slope);
-  r.lead = T(m.lead);
-  r.absent = m.absent;
-  for (double v : m.knots)
-    r.knots.push_back(T(v));
-  for (double v : m.bends)
-    r.bends.push_back(T(v));
-  return c;
-}
-
 struct Sample {
   double phi;
   ToothBacklash contact;
@@ -49,9 +20,9 @@ struct Sample {
 
 class AlongPhi {
 public:
-  AlongPhi(const FlankPair& pair, const NeutralCurve& curve)
-      : pair_(pair), curve_(curve), dual_{constant<2>(pair.prepared().pair.flexspline),
-                                          constant<2>(pair.prepared().pair.circular_spline)} {}
+  AlongPhi(const Gear& gear, const FlankPair& pair, const NeutralCurve& curve)
+      : pair_(pair), curve_(curve), dual_(tooth_pair(gear_numbers<Dual<2>>(gear), gear.flexspline.teeth,
+                                                     gear.circular_spline.teeth, pair.prepared().zeta)) {}
 
   Sample at(double phi, bool with_slope) const {
     using T = Dual<2>;
@@ -83,7 +54,7 @@ Outcome<LeastBacklash> least_backlash(const Gear& gear, const NeutralCurve& curv
   const auto pair = FlankPair::make(gear, zeta);
   if (!pair)
     return pair.failure();
-  const AlongPhi along(*pair, curve);
+  const AlongPhi along(gear, *pair, curve);
   const Window window = window_of(gear);
   // Steps of half a pitch, at most 2.5 degrees: the backlash varies over tens of degrees.
   const double step = std::min(std::numbers::pi / gear.flexspline.teeth, 2.5 * std::numbers::pi / 180.0);

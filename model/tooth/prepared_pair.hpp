@@ -18,6 +18,24 @@ struct FlankPair::Prepared {
   std::vector<double> circular_spline_breaks; ///< radii
 };
 
+/// A point of the flexspline flank that ends a smooth stretch of gap(t).
+struct Mark {
+  double t;
+  ContactPlace place;
+  int kink;
+};
+
+/// Where both flanks exist, in roll angles of the flexspline.
+struct Stretch {
+  Mark lo, hi;
+  double root_radius, tip_radius; ///< distances of the flexspline flank's ends from the gear's axis
+};
+std::optional<Stretch> shared_stretch(const FlankPair::Prepared&, const Placement<double>&);
+
+/// Roll angle of the flexspline flank point at this distance from the gear's axis.
+double roll_at(const FlankPair::Prepared&, const Placement<double>&, double root_radius, double tip_radius,
+               double radius);
+
 /// The teeth a gear's window selects, for one phase: index, folded material angle, lobe; ascending on each
 /// lobe.
 struct SelectedTooth {

@@ -52,7 +52,8 @@ struct RemovalLaw {
   T tip_relief{0.0}, tip_start{0.5}, tip_power{2.0}, root_relief{0.0}, root_start{0.5}, crowning{0.0},
       slope{0.0};
   T lead_crowning{0.0}, lead_taper{0.0}, end_relief{0.0}, end_length{0.0};
-  double zeta = 0.0, face_width = 0.0;
+  T face_width{0.0};
+  double zeta = 0.0;
   std::vector<T> knots, bends;
   T lead{0.0}; ///< what does not depend on h
   bool absent = true;
@@ -64,9 +65,9 @@ struct RemovalLaw {
     lead += value_of(lead_taper) >= 0.0 ? T(lead_taper * (0.5 * (1.0 + zeta)))
                                         : T(lead_taper * (-0.5 * (1.0 - zeta)));
     for (double side : {-1.0, 1.0}) {
-      const double distance = 0.5 * face_width * (1.0 - side * zeta);
-      if (distance < value_of(end_length)) {
-        const T rest = 1.0 - distance / end_length;
+      const T distance = face_width * (0.5 * (1.0 - side * zeta));
+      if (value_of(distance) < value_of(end_length)) {
+        const T rest = 1.0 - T(distance / end_length);
         lead += T(end_relief * rest * rest);
       }
     }
@@ -135,8 +136,5 @@ private:
                                  T(T(3.0 * b2 - 1.0) * bends[i + 1] - T(3.0 * a2 - 1.0) * bends[i])));
   }
 };
-
-/// The law in plain numbers.
-RemovalLaw<double> removal_law(const FlankModification&, Member, double zeta, double face_width_mm);
 
 } // namespace strainwave

@@ -49,14 +49,6 @@ TEST(LcpPath, EqualsDirectSolvesWithTheDiscsInTheProblem) {
       seed_on_discs(read_json(folder + "/load-path.json"), read_json(folder + "/unit-responses.json"), solver);
   const EventPath path = solver.trace(problem, {.end_rotation = 4.5e-3});
   EXPECT_LT(largest_difference(problem, path, 0.0, 4.5e-3), 1e-12);
-  std::printf("events %zu, torque at the end %.3f N m, solves %d\n", path.events().size(), 2e-3 * path.end_torque(),
-              path.linear_solves());
-  for (const double theta : {1e-3, 2e-3, 3.38e-3, 4.5e-3}) {
-    const ContactState state = solver.solve_at(problem, theta);
-    std::printf("%g: %.3f N m, peak %.2f, its %d, fallback %d closed %d\n", theta, 2e-3 * state.torque,
-                state.force.head(28).maxCoeff(), state.iterations, state.fallback,
-                static_cast<int>(std::count(state.active.begin(), state.active.end(), 1)));
-  }
 }
 
 TEST(LcpPath, SymmetricGapsCloseExactlyInPairs) {
@@ -71,6 +63,103 @@ TEST(LcpPath, SymmetricGapsCloseExactlyInPairs) {
     EXPECT_EQ(changes[1].index, 14 + k);
     EXPECT_TRUE(changes[0].closes && changes[1].closes);
   }
+}
+
+TEST(LcpPath, TorqueOnTheDiscsIsTheIndependentColumn) {
+  // physics: unilateral, linearised gap, one contact point at tip height: N·m at four rotations, peak force at the third,
+  // as printed there.
+  ContactSolver solver;
+  const ContactProblem problem =
+      seed_on_discs(read_json(folder + "/load-path.json"), read_json(folder + "/unit-responses.json"), solver);
+  const EventPath path = solver.trace(problem, {.end_rotation = 4.5e-3});
+  EXPECT_NEAR(2e-3 * path.torque_at(1e-3), 2.79, 0.005);
+  EXPECT_NEAR(2e-3 * path.torque_at(2e-3), 5.81, 0.005);
+  EXPECT_NEAR(2e-3 * path.torque_at(3.38e-3), 11.3, 0.05);
+  EXPECT_NEAR(2e-3 * path.torque_at(4.5e-3), 16.3, 0.05);
+  EXPECT_NEAR(path.at(3.38e-3).force.head(28).maxCoeff(), 58.4, 0.06);
+}
+
+TEST(LcpPath, TorqueNeverFallsAndStiffnessJumpsAsTheKindOfEventSays) {
+  ContactSolver solver;
+  const ContactProblem problem =
+      seed_on_discs(read_json(folder + "/load-path.json"), read_json(folder + "/unit-responses.json"), solver);
+  const EventPath path = solver.trace(problem, {.end_torque = 6000.0});
+  EXPECT_EQ(path.end(), EventPath::End::torque);
+  EXPECT_EQ(path.end_torque(), 6000.0);
+  double torque = path.start_torque(), rotation = path.start_rotation();
+  for (const PathEvent& event : path.events()) {
+    EXPECT_GE(event.torque, torque);
+    EXPECT_GT(event.rotation, rotation);
+    torque = event.torque;
+    rotation = event.rotation;
+    // r · M_AA⁻¹ r grows with the set: closing stiffens, opening softens.
+    if (event.change_count != 1) continue;
+    const double jump = (event.stiffness_after - event.stiffness_before) / path.events().back().stiffness_after;
+    EXPECT_GE(path.changes(event)[0].closes ? jump : -jump, -1e-12);
+  }
+}
+
+TEST(LcpPath, TorqueControlOnThePathEqualsTheDirectSolve) {
+  ContactSolver solver;
+  const ContactProblem linear = load_path(read_json(folder + "/load-path.json"));
+  const ContactProblem discs =
+      seed_on_discs(read_json(folder + "/load-path.json"), read_json(folder + "/unit-responses.json"), solver);
+  for (const ContactProblem* problem : {&linear, &discs}) {
+    const EventPath path = solver.trace(*problem, {.end_torque = 6000.0});
+    for (int i = 1; i <= 60; ++i) {
+      const double torque = 100.0 * i;
+      const auto direct = solver.solve_torque(*problem, torque);
+      const ContactState on_path = path.at_torque(torque);
+      EXPECT_LT((direct->force - on_path.force).cwiseAbs().maxCoeff(), 1e-12 * direct->force.maxCoeff()) << torque;
+      EXPECT_NEAR(on_path.rotation, direct->rotation, 1e-12 * direct->rotation) << torque;
+      EXPECT_NEAR(direct->torque, torque, 1e-12 * torque);
+      EXPECT_NEAR(on_path.stiffness, direct->stiffness, 1e-9 * direct->stiffness) << torque;
+    }
+    EXPECT_NEAR(path.rotation_at(0.0), solver.take_up(*problem).value(), 1e-15);
+  }
+}
+
+TEST(LcpPath, StiffnessOnATieIsTheOneOfLargerRotation) {
+  const ContactProblem problem = ties();
+  ContactSolver solver;
+  const EventPath path = solver.trace(problem, {.end_rotation = 0.05});
+  for (const PathEvent& event : path.events()) {
+    const ContactState state = solver.solve_at(problem, event.rotation);
+    EXPECT_EQ(state.biactive.size(), 2u);
+    EXPECT_NEAR(state.stiffness, event.stiffness_after, 1e-9 * event.stiffness_after);
+  }
+}
+
+TEST(LcpPath, StartsOnAnEvent) {
+  const ContactProblem problem = ties();
+  ContactSolver solver;
+  const EventPath whole = solver.trace(problem, {.end_rotation = 0.05});
+  const double event = whole.events()[5].rotation;
+  const EventPath rest = solver.trace(problem, {.start_rotation = event, .end_rotation = 0.05});
+  EXPECT_EQ(rest.events().size(), whole.events().size() - 6);
+  EXPECT_NEAR(rest.end_torque(), whole.end_torque(), 1e-12 * whole.end_torque());
+}
+
+TEST(LcpPath, TwoEqualLobesUnfoldedGiveTheFoldedPath) {
+  // Both lobes as unknowns of their own, D split into near and far halves: every event is a pair.
+  const ContactProblem one = load_path(read_json(folder + "/load-path.json"));
+  const int n = one.size();
+  ContactProblem two{Eigen::MatrixXd(2 * n, 2 * n), Eigen::VectorXd(2 * n), Eigen::VectorXd(2 * n)};
+  const Eigen::MatrixXd far = 0.2 * one.m;
+  two.m << one.m - far, far, far, one.m - far;
+  two.q << one.q, one.q;
+  two.r << one.r, one.r;
+  ContactSolver solver;
+  const EventPath folded = solver.trace(one, {.end_rotation = 5e-3});
+  const EventPath unfolded = solver.trace(two, {.end_rotation = 5e-3});
+  ASSERT_EQ(unfolded.events().size(), folded.events().size());
+  for (std::size_t k = 0; k < folded.events().size(); ++k) {
+    const auto changes = unfolded.changes(unfolded.events()[k]);
+    ASSERT_EQ(changes.size(), 2u);
+    EXPECT_EQ(changes[0].index + n, changes[1].index);
+    EXPECT_NEAR(unfolded.events()[k].rotation, folded.events()[k].rotation, 1e-15);
+  }
+  EXPECT_NEAR(unfolded.end_torque(), 2.0 * folded.end_torque(), 1e-11 * unfolded.end_torque());
 }
 
 } // namespace
