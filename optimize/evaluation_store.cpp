@@ -2,6 +2,8 @@
 
 #include "model/forward/stage_memory.hpp"
 
+#include <chrono>
+
 namespace strainwave {
 
 Evaluation EvaluationStore::evaluate(std::span<const double> x) {
@@ -25,6 +27,7 @@ Evaluation EvaluationStore::evaluate(std::span<const double> x) {
   order_.push_back(entry);
   lock.unlock();
   std::shared_ptr<const Evaluation> result;
+  const auto start = std::chrono::steady_clock::now();
   try {
     result = std::make_shared<const Evaluation>(inner_.evaluate(x));
   } catch (...) {
@@ -36,6 +39,7 @@ Evaluation EvaluationStore::evaluate(std::span<const double> x) {
   }
   lock.lock();
   entry->result = result;
+  entry->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   ++counts_.done;
   if (!result->ok)
     ++counts_.failed;
@@ -50,20 +54,21 @@ EvaluationCounts EvaluationStore::counts() const {
 
 Certificate EvaluationStore::worst_certificate() const {
   Certificate worst;
-  visit([&](std::span<const double>, const Evaluation& evaluation) {
-    if (evaluation.ok)
-      take_worse(worst, evaluation.certificate);
-  });
+  for (const StoredPoint& point : points()) {
+    if (point.evaluation->ok)
+      take_worse(worst, point.evaluation->certificate);
+  }
   return worst;
 }
 
-void EvaluationStore::visit(
-    const std::function<void(std::span<const double> x, const Evaluation&)>& visit) const {
+std::vector<StoredPoint> EvaluationStore::points() const {
   const std::lock_guard lock(mutex_);
+  std::vector<StoredPoint> all;
   for (const auto& entry : order_) {
     if (entry->result)
-      visit(entry->x, *entry->result);
+      all.push_back({entry->x, entry->result, entry->seconds});
   }
+  return all;
 }
 
 } // namespace strainwave

@@ -6,7 +6,6 @@
 #include "optimize/evaluator.hpp"
 
 #include <condition_variable>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <unordered_map>
@@ -17,6 +16,12 @@ struct EvaluationCounts {
   std::size_t done = 0;   ///< evaluations made, failed ones included
   std::size_t reused = 0; ///< answers out of the store
   std::size_t failed = 0; ///< of those made
+};
+
+struct StoredPoint {
+  std::vector<double> x;
+  std::shared_ptr<const Evaluation> evaluation;
+  double seconds = 0.0;
 };
 
 class EvaluationStore : public Evaluator {
@@ -32,13 +37,14 @@ public:
   EvaluationCounts counts() const;
   /// The largest residuals of all evaluations that did not fail.
   Certificate worst_certificate() const;
-  /// Calls `visit` for every stored point, in the order in which the evaluations began.
-  void visit(const std::function<void(std::span<const double> x, const Evaluation&)>& visit) const;
+  /// Every point that was evaluated, in the order in which the evaluations began.
+  std::vector<StoredPoint> points() const;
 
 private:
   struct Entry {
     std::vector<double> x;
     std::shared_ptr<const Evaluation> result; ///< null while it is under way
+    double seconds = 0.0;
   };
 
   Evaluator& inner_;

@@ -35,12 +35,14 @@ void GearEvaluator::give_back(std::unique_ptr<ForwardModel> model) {
 }
 
 Evaluation GearEvaluator::evaluate(std::span<const double> x) {
-  Gear gear;
   try {
-    gear = design_.apply(base_, x);
+    return evaluate_gear(design_.apply(base_, x));
   } catch (const FieldError& error) { // a linked number can leave the range of its key
     return failed("out_of_range", error.what());
   }
+}
+
+Evaluation GearEvaluator::evaluate_gear(Gear gear) {
   auto model = borrow();
   std::vector<ForwardResult> results;
   for (const Load& load : loads_) {

@@ -26,12 +26,15 @@ public:
 
   std::span<const Response> responses() const override { return gear_responses(); }
   Evaluation evaluate(std::span<const double> x) override;
+  /// The unmodified gear.
+  Evaluation evaluate_base() { return evaluate_gear(base_); }
 
   const Design& design() const { return design_; }
   /// The gear itself, for files and reports.
   Gear gear(std::span<const double> x) const { return design_.apply(base_, x); }
 
 private:
+  Evaluation evaluate_gear(Gear gear);
   std::unique_ptr<ForwardModel> borrow();
   void give_back(std::unique_ptr<ForwardModel> model);
 
