@@ -90,7 +90,10 @@ const std::array rows{
                        [](const LoadResult& load) { return load.transmission_error_arcsec.value_or(none); });
         }},
     Row{{"disc_force_n", "N", "resultant on one disc along the major axis under load"},
-        of_load<&LoadResult::disc_force_n, largest>},
+        [](std::span<const ForwardResult> r) {
+          return r.front().fidelity == Fidelity::linear ? none
+                                                        : of_load<&LoadResult::disc_force_n, largest>(r);
+        }},
     Row{{"assembly_force_n", "N", "resultant on one disc along the major axis, assembled, without load"},
         [](std::span<const ForwardResult> r) {
           return r.front().assembly ? r.front().assembly->contact_force_n : none;

@@ -95,7 +95,7 @@ TEST(FailureInjection, NothingButFailuresEndsEarlyWithTheReason) {
   Monitor monitor;
   const OptimiseResult result = optimise(problem, {.search = {.budget = 5000}}, evaluator, monitor);
   EXPECT_EQ(result.judgement.verdict, Verdict::infeasible);
-  EXPECT_EQ(evaluator.calls, static_cast<int>(all_failed_limit));
+  EXPECT_LE(evaluator.calls, static_cast<int>(all_failed_limit));
   EXPECT_NE(result.judgement.message.find("made to fail"), std::string::npos);
 }
 

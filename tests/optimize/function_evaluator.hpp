@@ -11,6 +11,11 @@
 
 namespace strainwave {
 
+/// (Not "g" + …: g++ 12 warns wrongly about overlapping copies, GCC bug 105651.)
+inline std::string limit_name(std::size_t k) {
+  return std::string("g").append(std::to_string(k));
+}
+
 /// Responses "f", "g0", "g1", … of a function that returns them all.
 class FunctionEvaluator : public Evaluator {
 public:
@@ -19,7 +24,7 @@ public:
   FunctionEvaluator(Function function, std::size_t limits) : function_(std::move(function)) {
     names_.push_back("f");
     for (std::size_t k = 0; k < limits; ++k)
-      names_.push_back("g" + std::to_string(k));
+      names_.push_back(limit_name(k));
     for (const std::string& name : names_)
       responses_.push_back({name, "", ""});
   }
@@ -74,6 +79,7 @@ struct KnownProblem {
   std::size_t limits = 0;
   double least = 0.0; ///< f at the answer
   bool smooth = true;
+  bool narrow_valley = false; ///< a linear model creeps along it
 };
 
 std::vector<KnownProblem> known_problems();
@@ -82,7 +88,7 @@ std::vector<KnownProblem> known_problems();
 inline Problem make_problem(const KnownProblem& known, Evaluator& evaluator) {
   std::vector<Constraint> constraints;
   for (std::size_t k = 0; k < known.limits; ++k)
-    constraints.push_back({.output = "g" + std::to_string(k),
+    constraints.push_back({.output = limit_name(k),
                            .min = {},
                            .max = 0.0,
                            .min_ratio_to_baseline = {},

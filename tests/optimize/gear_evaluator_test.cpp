@@ -11,7 +11,7 @@ namespace {
 
 Gear coarse_gear() {
   Gear gear = seed_gear();
-  gear.mesh = {.per_pitch = 2,
+  gear.mesh = {.per_pitch = 3,
                .along_face = 4,
                .along_wall = 5,
                .diaphragm = 3,

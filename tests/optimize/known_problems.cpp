@@ -26,7 +26,8 @@ std::vector<KnownProblem> known_problems() {
        .box = {{-2, 2, -1.2}, {-2, 2, 1}},
        .function = [](X x) { return std::vector{rosenbrock(x)}; },
        .limits = 0,
-       .least = 0.0},
+       .least = 0.0,
+       .narrow_valley = true},
       // The minimum of (1 − x)² + 100 (y − x²)² in the disc of radius √2 is its own, (1, 1), on the edge of
       // the disc.
       {.name = "Rosenbrock's valley in a disc",
@@ -36,7 +37,8 @@ std::vector<KnownProblem> known_problems() {
              return std::vector{rosenbrock(x), x[0] * x[0] + x[1] * x[1] - 2.0};
            },
        .limits = 1,
-       .least = 0.0},
+       .least = 0.0,
+       .narrow_valley = true},
       {.name = "HS 24: linear limits, a vertex",
        .box = {{0, 5, 1}, {0, 5, 0.5}},
        .function =
