@@ -33,6 +33,7 @@ public:
   /// An exception of the inner evaluator reaches the thread that made the evaluation; others that wait try
   /// again.
   Evaluation evaluate(std::span<const double> x) override;
+  std::vector<double> gradient(std::span<const double> x) override { return inner_.gradient(x); }
 
   EvaluationCounts counts() const;
   /// The largest residuals of all evaluations that did not fail.

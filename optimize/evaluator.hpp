@@ -31,6 +31,12 @@ public:
   /// x in the units of the design's keys. Thread-safe; the same bits for the same x, whatever was asked
   /// before.
   virtual Evaluation evaluate(std::span<const double> x) = 0;
+  /// ∂value/∂x, response by response, variables inside: [r · n + i]. Empty where no exact gradient is known;
+  /// the caller then takes differences.
+  virtual std::vector<double> gradient(std::span<const double> x) {
+    (void)x;
+    return {};
+  }
 };
 
 } // namespace strainwave

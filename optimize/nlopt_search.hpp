@@ -15,7 +15,7 @@
 namespace strainwave {
 
 /// Names of the methods, for study files.
-std::span<const std::string_view> nlopt_methods();
+std::span<const std::string_view> nlopt_method_names();
 
 /// `y` lies within the scaled bounds. Throws what the evaluator throws.
 SearchResult search_nlopt(const Problem& problem, std::span<const double> y, const SearchSettings& settings,

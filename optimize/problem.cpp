@@ -1,5 +1,7 @@
 #include "optimize/problem.hpp"
 
+#include "optimize/slopes.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -81,6 +83,28 @@ Point Problem::read(std::span<const double> y, const Evaluation& evaluation) con
     point.violation = std::max(point.violation, g);
   }
   return point;
+}
+
+std::optional<Slopes> Problem::exact_slopes(std::span<const double> y) const {
+  const std::size_t n = design_.size();
+  const std::vector<double> gradient = evaluator_->gradient(design_.unscaled(y));
+  if (gradient.empty())
+    return std::nullopt;
+  Slopes slopes{true, std::vector<double>(n), std::vector<double>(limits_.size() * n)};
+  for (std::size_t i = 0; i < n; ++i) {
+    const double scale = design_.variables()[i].scale;
+    slopes.objective[i] = (maximise_ ? -1.0 : 1.0) * gradient[objective_ * n + i] * scale / objective_scale_;
+    for (std::size_t k = 0; k < limits_.size(); ++k) {
+      const Limit& limit = limits_[k];
+      slopes.constraint[k * n + i] =
+          (limit.upper ? 1.0 : -1.0) * gradient[limit.response * n + i] * scale / limit.scale;
+    }
+  }
+  const auto finite = [](double slope) { return std::isfinite(slope); };
+  if (!std::all_of(slopes.objective.begin(), slopes.objective.end(), finite) ||
+      !std::all_of(slopes.constraint.begin(), slopes.constraint.end(), finite))
+    return std::nullopt; // this evaluator does not know those of the responses that matter
+  return slopes;
 }
 
 double Problem::unscaled_objective(const Point& point) const {

@@ -41,6 +41,8 @@ struct Limit {
   double scaled_excess(double value) const { return (upper ? value - bound : bound - value) / scale; }
 };
 
+struct Slopes;
+
 /// A design as a search sees it.
 struct Point {
   std::vector<double> y;          ///< scaled coordinates
@@ -75,6 +77,8 @@ public:
   /// Thread-safe. A value that is not finite counts as a failed evaluation.
   Point at(std::span<const double> y) const;
   Point read(std::span<const double> y, const Evaluation& evaluation) const;
+  /// First derivatives in scaled coordinates where the evaluator knows its gradient; see slopes.hpp.
+  std::optional<Slopes> exact_slopes(std::span<const double> y) const;
   /// The objective in the unit of its response.
   double unscaled_objective(const Point& point) const;
 

@@ -1,21 +1,20 @@
 #include "optimize/search.hpp"
 
+#include "optimize/slopes.hpp"
+
 #include <algorithm>
 
 namespace strainwave {
 
-const Recorder::Told& Recorder::ask(std::span<const double> y) {
-  if (!last_.empty() && std::equal(y.begin(), y.end(), last_.begin(), last_.end()))
-    return told_;
+Point Recorder::evaluate(std::span<const double> y) {
   if (monitor_.stop_requested())
     throw Ended{SearchEnd::stopped};
   if (result_.asked >= budget_)
     throw Ended{SearchEnd::budget};
   const Evaluation evaluation = problem_.evaluator().evaluate(problem_.design().unscaled(y));
-  const Point point = problem_.read(y, evaluation);
+  Point point = problem_.read(y, evaluation);
   ++result_.asked;
   monitor_.note(problem_, point);
-  last_.assign(y.begin(), y.end());
   if (!point.ok) {
     ++result_.failed;
     result_.reason = evaluation.ok ? "the objective or a limited output is not a number" : evaluation.message;
@@ -24,7 +23,32 @@ const Recorder::Told& Recorder::ask(std::span<const double> y) {
   } else if (!result_.best || better(point, *result_.best)) {
     result_.best = point;
   }
-  tell(point);
+  return point;
+}
+
+const Recorder::Told& Recorder::ask(std::span<const double> y) {
+  if (result_.asked > 0 && std::equal(y.begin(), y.end(), last_.y.begin(), last_.y.end()))
+    return told_;
+  last_ = evaluate(y);
+  slopes_known_ = false;
+  tell(last_);
+  return told_;
+}
+
+const Recorder::Told& Recorder::ask_slopes(std::span<const double> y) {
+  (void)ask(y);
+  if (slopes_known_)
+    return told_;
+  slopes_known_ = true;
+  const std::size_t n = y.size();
+  told_.objective_slopes.resize(n, 0.0);
+  told_.constraint_slopes.resize(n * problem_.limits().size(), 0.0);
+  const Slopes slopes =
+      slopes_at(problem_, last_, [this](std::span<const double> near) { return evaluate(near); });
+  if (slopes.ok) {
+    told_.objective_slopes = slopes.objective;
+    told_.constraint_slopes = slopes.constraint;
+  }
   return told_;
 }
 

@@ -55,6 +55,7 @@ public:
   struct Told {
     double objective = 0.0;
     std::vector<double> constraint;
+    std::vector<double> objective_slopes, constraint_slopes; ///< as in Slopes; only after ask_slopes
     bool ok = false;
   };
 
@@ -65,6 +66,10 @@ public:
 
   /// The same point twice in a row is one question.
   const Told& ask(std::span<const double> y);
+  /// With first derivatives. Where they are not to be had, those of the last point that had some.
+  const Told& ask_slopes(std::span<const double> y);
+  /// The point itself, whatever became of it; for those who can deal with failed ones.
+  Point evaluate(std::span<const double> y);
   const SearchResult& result() const { return result_; }
 
 private:
@@ -74,7 +79,8 @@ private:
   std::size_t budget_;
   Monitor& monitor_;
   SearchResult result_;
-  std::vector<double> last_;
+  Point last_;
+  bool slopes_known_ = false; ///< at last_
   Told told_;
   double best_objective_ = 0.0, worst_objective_ = 0.0;
   std::vector<double> worst_constraint_;

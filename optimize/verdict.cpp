@@ -1,5 +1,6 @@
 #include "optimize/verdict.hpp"
 
+#include "optimize/descent.hpp"
 #include "optimize/nlopt_search.hpp"
 
 #include <fmt/format.h>
@@ -51,30 +52,54 @@ std::string_view verdict_name(Verdict verdict) {
   return "unknown";
 }
 
-bool confirm(const Problem& problem, SearchResult& found, const SearchSettings& settings, std::size_t budget,
-             Monitor& monitor) {
+namespace {
+
+/// Adds what a small search found and asked.
+void take_over(SearchResult& found, const SearchResult& again) {
+  found.asked += again.asked;
+  found.failed += again.failed;
+  if (again.best && better(*again.best, *found.best))
+    found.best = again.best;
+}
+
+/// A simplex, then gradient sampling at two radii. True: both came to their end, without a failed evaluation.
+bool look_around(const Problem& problem, SearchResult& found, const SearchSettings& settings,
+                 std::size_t budget, Monitor& monitor) {
   SearchSettings small = settings;
   small.method = "cobyla";
   small.first_step = std::max(confirmation_step, 2.0 * settings.tolerance);
+  small.budget = budget;
+  const SearchResult simplex = search_nlopt(problem, found.best->y, small, monitor);
+  take_over(found, simplex);
+  found.end = simplex.end;
+  if (simplex.failed > 0 || simplex.end != SearchEnd::tolerance)
+    return false;
+  Recorder recorder(problem, budget - simplex.asked, monitor);
+  try {
+    const Point from = *found.best;
+    for (const double radius : {confirmation_step, 0.1 * confirmation_step})
+      (void)find_descent(problem, from, radius, settings.seed,
+                         [&](std::span<const double> y) { return recorder.evaluate(y); });
+  } catch (const Recorder::Ended& end) {
+    found.end = end.end;
+  }
+  const SearchResult& sampled = recorder.result();
+  take_over(found, sampled);
+  return sampled.failed == 0 && found.end == SearchEnd::tolerance;
+}
+
+} // namespace
+
+bool confirm(const Problem& problem, SearchResult& found, const SearchSettings& settings, std::size_t budget,
+             Monitor& monitor) {
+  const std::size_t limit = found.asked + budget;
   while (found.best) {
     const Point before = *found.best;
-    small.budget = budget;
-    const SearchResult again = search_nlopt(problem, before.y, small, monitor);
-    found.asked += again.asked;
-    found.failed += again.failed;
-    budget -= again.asked;
-    if (again.best && better(*again.best, before))
-      found.best = again.best;
-    if (again.end == SearchEnd::stopped || again.end == SearchEnd::budget) {
-      found.end = again.end;
-      return false;
-    }
-    if (again.failed > 0 || again.end != SearchEnd::tolerance)
+    if (!look_around(problem, found, settings, limit - found.asked, monitor))
       return false;
     const bool same_kind = feasible(before) == feasible(*found.best);
     const double gain = feasible(before) ? before.objective - found.best->objective
                                          : before.violation - found.best->violation;
-    found.end = SearchEnd::tolerance;
     if (same_kind && gain <= settings.tolerance * std::max(1.0, std::abs(before.objective)))
       return true;
   }
@@ -120,7 +145,7 @@ Judgement judge(const Problem& problem, const SearchResult& found, bool confirme
   if (!confirmed)
     return say(Verdict::stalled, "evaluations near the optimum failed, so nothing confirms that it is one");
   return say(Verdict::converged,
-             "a second search from the optimum finds nothing better; evaluated again it gives the same "
+             "searches around the optimum find nothing better; evaluated again it gives the same "
              "numbers and keeps all limits");
 }
 

@@ -1,10 +1,9 @@
 #pragma once
 // Our own judgement of an optimum. What a method says of itself is one witness among several:
 //
-//   converged   the method was content, and a new small search from its best point, by another simplex and
-//   without a single
-//               failed evaluation, finds nothing better; a fresh evaluation gives the same numbers, keeps
-//               every limit
+//   converged   a new small search from the best point, by another simplex, and gradient sampling around it
+//               (descent.hpp) find nothing better, without a single failed evaluation; a fresh evaluation
+//               gives the same numbers and keeps every limit
 //   stalled     a feasible point, but one of these witnesses is missing; the sentence says which
 //   budget      the evaluations were used up first
 //   infeasible  no design was found that keeps all limits; the one that violates them least is reported

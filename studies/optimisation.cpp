@@ -71,7 +71,7 @@ std::vector<InputChange> inputs_of(const Design& design, const Gear& before, con
 
 StudyVocabulary study_vocabulary() {
   return {.outputs = gear_response_names(),
-          .methods = nlopt_methods(),
+          .methods = nlopt_method_names(),
           .unavailable = [](std::string_view output, const StudyFile& study) {
             return find_unavailable_response(output, study.gear, study_loads(study));
           }};

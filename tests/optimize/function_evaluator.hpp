@@ -82,7 +82,10 @@ struct KnownProblem {
   bool narrow_valley = false; ///< a linear model creeps along it
 };
 
+/// With one minimum each.
 std::vector<KnownProblem> known_problems();
+/// With several, of which the start's own is not the deepest.
+std::vector<KnownProblem> known_global_problems();
 
 /// All limits g_k ≤ 0, everything scaled by 1.
 inline Problem make_problem(const KnownProblem& known, Evaluator& evaluator) {

@@ -87,4 +87,31 @@ std::vector<KnownProblem> known_problems() {
   };
 }
 
+std::vector<KnownProblem> known_global_problems() {
+  return {
+      // L. C. W. Dixon and G. P. Szegő (1978): six minima.
+      {.name = "six-hump camel",
+       .box = {{-3, 3, 1.6}, {-2, 2, -0.6}},
+       .function =
+           [](X x) {
+             const double a = x[0] * x[0], b = x[1] * x[1];
+             return std::vector{(4.0 - 2.1 * a + a * a / 3.0) * a + x[0] * x[1] + (4.0 * b - 4.0) * b};
+           },
+       .limits = 0,
+       .least = -1.0316284535},
+      // S. K. Mishra (2006), in the disc (x + 5)² + (y + 5)² ≤ 25.
+      {.name = "Mishra's bird in a disc",
+       .box = {{-10, 0, -8}, {-6.5, 0, -4}},
+       .function =
+           [](X x) {
+             const double s = std::sin(x[1]), c = std::cos(x[0]);
+             return std::vector{s * std::exp(square(1.0 - c)) + c * std::exp(square(1.0 - s)) +
+                                    square(x[0] - x[1]),
+                                square(x[0] + 5.0) + square(x[1] + 5.0) - 25.0};
+           },
+       .limits = 1,
+       .least = -106.7645367},
+  };
+}
+
 } // namespace strainwave

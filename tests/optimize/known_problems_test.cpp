@@ -1,5 +1,6 @@
 // Every method on problems with known answers.
 
+#include "optimize/nlopt_methods.hpp"
 #include "optimize/nlopt_search.hpp"
 #include "tests/optimize/function_evaluator.hpp"
 
@@ -10,19 +11,87 @@
 namespace strainwave {
 namespace {
 
-TEST(Cobyla, FindsTheAnswersOfKnownProblems) {
-  for (const KnownProblem& known : known_problems()) {
+SearchResult run(const Problem& problem, const SearchSettings& settings) {
+  Monitor monitor;
+  return search_nlopt(problem, problem.design().scaled(problem.design().start()), settings, monitor);
+}
+
+/// Least f of the box; within `tolerance` of it, relative.
+void expect_answer(const KnownProblem& known, const SearchResult& result, double tolerance,
+                   std::string_view method) {
+  ASSERT_TRUE(result.best) << known.name << ", " << method;
+  EXPECT_TRUE(feasible(*result.best)) << known.name << ", " << method;
+  EXPECT_NEAR(result.best->objective, known.least, tolerance * std::max(1.0, std::abs(known.least)))
+      << known.name << ", " << method << ", " << result.asked << " evaluations";
+}
+
+TEST(LocalMethods, FindTheAnswersOfProblemsOfTheirClass) {
+  for (const NloptMethod& method : nlopt_method_table()) {
+    if (method.global)
+      continue;
+    for (const KnownProblem& known : known_problems()) {
+      const bool of_its_class = known.smooth || method.name == "cobyla" || method.name == "sbplx";
+      if (!of_its_class)
+        continue;
+      FunctionEvaluator evaluator(known.function, known.limits);
+      const auto result = run(make_problem(known, evaluator),
+                              {.method = std::string(method.name), .budget = 20000, .tolerance = 1e-7});
+      expect_answer(known, result, 1e-3, method.name);
+    }
+  }
+}
+
+TEST(GlobalMethods, FindTheDeepestOfSeveralValleys) {
+  for (const NloptMethod& method : nlopt_method_table()) {
+    if (!method.global)
+      continue;
+    for (const KnownProblem& known : known_global_problems()) {
+      FunctionEvaluator evaluator(known.function, known.limits);
+      const auto result = run(make_problem(known, evaluator),
+                              {.method = std::string(method.name), .budget = 8000, .tolerance = 1e-6});
+      expect_answer(known, result, 0.01, method.name); // the valley counts; a local search goes to its bottom
+    }
+  }
+}
+
+TEST(GlobalMethods, TheSameSeedGivesTheSameSearch) {
+  for (const char* method : {"crs2", "isres", "mlsl"}) {
+    const KnownProblem known = known_global_problems()[1];
     FunctionEvaluator evaluator(known.function, known.limits);
     const Problem problem = make_problem(known, evaluator);
-    Monitor monitor;
-    const auto result = search_nlopt(problem, problem.design().scaled(problem.design().start()),
-                                     {.method = "cobyla", .budget = 5000, .tolerance = 1e-7}, monitor);
-    EXPECT_TRUE(result.end == SearchEnd::tolerance || known.narrow_valley) << known.name;
-    ASSERT_TRUE(result.best) << known.name;
-    EXPECT_TRUE(feasible(*result.best)) << known.name;
-    // A linear model within a trust region of 1e-7 of the range; valleys bend its path (Rosenbrock).
-    EXPECT_NEAR(result.best->objective, known.least, 1e-3 * std::max(1.0, std::abs(known.least)))
-        << known.name;
+    const SearchSettings settings{.method = method, .budget = 500, .seed = 11};
+    const auto first = run(problem, settings);
+    (void)run(problem, {.method = method, .budget = 333, .seed = 12});
+    EXPECT_EQ(run(problem, settings).best->y, first.best->y) << method;
+  }
+}
+
+TEST(SlopeMethods, UseExactGradientsWhereThereAreSome) {
+  struct WithGradient : FunctionEvaluator {
+    using FunctionEvaluator::FunctionEvaluator;
+    std::vector<double> gradient(std::span<const double> x) override {
+      ++gradients;
+      return {2.0 * (x[0] - 1.0), 20.0 * (x[1] - 2.0), 1.0, 1.0}; // of f, then of g0
+    }
+    int gradients = 0;
+  };
+  const KnownProblem known{.name = "quadratic, half plane",
+                           .box = {{-5, 5, 4}, {-5, 5, -4}},
+                           .function =
+                               [](std::span<const double> x) {
+                                 return std::vector{(x[0] - 1.0) * (x[0] - 1.0) +
+                                                        10.0 * (x[1] - 2.0) * (x[1] - 2.0),
+                                                    x[0] + x[1] - 1.9};
+                               },
+                           .limits = 1,
+                           .least = 1.21 / 1.1}; // distance 1.1 from (1, 2), shared 10 : 1
+  for (const char* method : {"mma", "ccsaq", "slsqp"}) {
+    WithGradient evaluator(known.function, known.limits);
+    const auto result =
+        run(make_problem(known, evaluator), {.method = method, .budget = 2000, .tolerance = 1e-8});
+    expect_answer(known, result, 1e-5, method);
+    EXPECT_GT(evaluator.gradients, 0) << method;
+    EXPECT_EQ(evaluator.calls, static_cast<int>(result.asked)) << method; // no neighbours
   }
 }
 
