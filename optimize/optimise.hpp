@@ -11,10 +11,16 @@
 
 namespace strainwave {
 
+/// Survey and polish (global_then_polish.hpp), the default of studies.
+inline constexpr std::string_view global_method = "global_then_polish";
+
+/// Everything that SearchSettings::method may be here: global_method and the methods of NLopt.
+std::span<const std::string_view> method_names();
+
 struct OptimiseSettings {
-  SearchSettings search; ///< budget: of all searches together
-  std::size_t starts = 1;
-  int threads = 1; ///< 0: all cores
+  SearchSettings search;  ///< budget: of all searches together
+  std::size_t starts = 1; ///< searches side by side, or valleys to polish
+  int threads = 1;        ///< 0: all cores
 };
 
 struct OptimiseResult {

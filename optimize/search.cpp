@@ -20,8 +20,10 @@ Point Recorder::evaluate(std::span<const double> y) {
     result_.reason = evaluation.ok ? "the objective or a limited output is not a number" : evaluation.message;
     if (result_.failed == all_failed_limit && result_.asked == all_failed_limit)
       throw Ended{SearchEnd::all_failed};
-  } else if (!result_.best || better(point, *result_.best)) {
-    result_.best = point;
+  } else {
+    result_.seen.push_back(point);
+    if (!result_.best || better(point, *result_.best))
+      result_.best = point;
   }
   return point;
 }

@@ -33,7 +33,8 @@ struct SearchResult {
   std::optional<Point> best; ///< feasible if any was; else the least violation; nothing if all failed
   std::size_t asked = 0;
   std::size_t failed = 0;
-  std::string reason; ///< of the last failed evaluation
+  std::string reason;      ///< of the last failed evaluation
+  std::vector<Point> seen; ///< every point that did not fail, in the order of asking
 };
 
 /// After so many failed evaluations without a single good one a search ends with all_failed.

@@ -1,7 +1,5 @@
 #include "studies/optimisation.hpp"
 
-#include "optimize/nlopt_search.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,8 +8,6 @@
 namespace strainwave {
 
 namespace {
-
-constexpr std::string_view default_method = "cobyla";
 
 /// Interfering flanks have no unloaded state to compare with.
 std::optional<Failure> find_fault_of_baseline(const Evaluation& baseline) {
@@ -71,7 +67,7 @@ std::vector<InputChange> inputs_of(const Design& design, const Gear& before, con
 
 StudyVocabulary study_vocabulary() {
   return {.outputs = gear_response_names(),
-          .methods = nlopt_method_names(),
+          .methods = method_names(),
           .unavailable = [](std::string_view output, const StudyFile& study) {
             return find_unavailable_response(output, study.gear, study_loads(study));
           }};
@@ -124,7 +120,7 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
   GearEvaluator model(study.gear, design, loads, forward, options.warn);
   OptimisationReport report;
   report.study = study;
-  report.method = study.method.name.empty() ? std::string(default_method) : study.method.name;
+  report.method = study.method.name.empty() ? std::string(global_method) : study.method.name;
   report.baseline = model.evaluate_base();
   if (auto fault = find_fault_of_baseline(report.baseline))
     return *fault;

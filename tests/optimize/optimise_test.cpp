@@ -1,6 +1,7 @@
 // The whole: starts, searches, confirmation, verdict.
 
 #include "optimize/evaluation_store.hpp"
+#include "optimize/global_then_polish.hpp"
 #include "optimize/optimise.hpp"
 #include "tests/optimize/function_evaluator.hpp"
 
@@ -66,6 +67,43 @@ TEST(Optimise, ResultIsTheSameForAnyNumberOfThreads) {
   const auto alone = solve(wavy, {.search = {.budget = 3000, .seed = 5}});
   EXPECT_LT(one.found.best->objective,
             alone.found.best->objective); // the start's own valley is not the deepest
+}
+
+TEST(GlobalThenPolish, FindsTheBottomOfTheDeepestValley) {
+  for (const KnownProblem& known : known_global_problems()) {
+    const auto result =
+        solve(known, {.search = {.method = std::string(global_method), .budget = 2000, .tolerance = 1e-6},
+                      .starts = 4});
+    EXPECT_EQ(result.judgement.verdict, Verdict::converged) << known.name << ": " << result.judgement.message;
+    EXPECT_NEAR(result.judgement.best->objective, known.least, 1e-5 * std::max(1.0, std::abs(known.least)))
+        << known.name;
+    EXPECT_LE(result.found.asked, 2000u);
+  }
+}
+
+TEST(GlobalThenPolish, IsTheSameForAnyNumberOfThreads) {
+  const KnownProblem known = known_global_problems()[1];
+  OptimiseSettings settings{.search = {.method = std::string(global_method), .budget = 600, .seed = 3},
+                            .starts = 5};
+  settings.threads = 1;
+  const auto one = solve(known, settings);
+  settings.threads = 3;
+  const auto three = solve(known, settings);
+  EXPECT_EQ(one.found.best->y, three.found.best->y);
+  EXPECT_EQ(one.found.asked, three.found.asked);
+}
+
+TEST(BestApart, TakesTheBestOfEveryNeighbourhood) {
+  FunctionEvaluator evaluator([](std::span<const double> x) { return std::vector{x[0]}; }, 0);
+  const Problem problem = make_problem({.name = "", .box = {{0, 10, 5}}, .function = {}}, evaluator);
+  std::vector<Point> points;
+  for (const double x : {5.0, 1.0, 1.2, 5.3, 9.0})
+    points.push_back(problem.at(problem.design().scaled(std::vector{x})));
+  const auto best = best_apart(problem, points, 3, 0.1);
+  ASSERT_EQ(best.size(), 3u);
+  EXPECT_DOUBLE_EQ(best[0].objective, 1.0);
+  EXPECT_DOUBLE_EQ(best[1].objective, 5.0);
+  EXPECT_DOUBLE_EQ(best[2].objective, 9.0);
 }
 
 TEST(Verdict, AnOptimumThatTheFreshEvaluationContradictsDoesNotStand) {

@@ -83,7 +83,7 @@ TEST_F(StudyCommand, WrongFilesEndWith2AndThePlace) {
   EXPECT_NE(complaint("tip_relief_um\"", "tip_releif_um\"").find("study.toml:13:8"), std::string::npos);
   EXPECT_NE(complaint("peak_force_n", "peak_force").find("did you mean \"peak_force_n\"?"),
             std::string::npos);
-  EXPECT_NE(complaint("\"cobyla\"", "\"cobila\"").find("did you mean \"cobyla\"?"), std::string::npos);
+  EXPECT_NE(complaint("\"global_then_polish\"", "\"cobila\"").find("did you mean \"cobyla\"?"), std::string::npos);
   EXPECT_NE(complaint("start = 2.0", "start = 20.0").find("between lower"), std::string::npos);
 }
 
