@@ -41,7 +41,8 @@ Case make(const std::string& name) {
     c.problem = smooth(140);
     c.load_with(c.solver.solve_at(c.problem, 4e-3).torque);
   } else {
-    c.problem = seed_on_discs(read_json(folder + "/load-path.json"), read_json(folder + "/unit-responses.json"), c.solver);
+    c.problem = seed_on_discs(read_json(folder + "/load-path.json"),
+                              read_json(folder + "/unit-responses.json"), c.solver);
     c.load_with(3500.0);
   }
   return c;
@@ -98,10 +99,13 @@ BENCHMARK_CAPTURE(at_torque, linear_140_cold, "linear_140", false)->Unit(benchma
 BENCHMARK_CAPTURE(at_torque, linear_140_warm, "linear_140", true)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(at_torque, unilateral_448_cold, "unilateral", false)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(at_torque, unilateral_448_warm, "unilateral", true)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(path, linear_28_to_7_Nm, "linear_28", PathRange{.end_torque = 3500.0})->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(path, linear_28_to_7_Nm, "linear_28", PathRange{.end_torque = 3500.0})
+    ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(path, linear_28_all_events, "linear_28", PathRange{})->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(path, linear_140_to_8_mrad, "linear_140", PathRange{.end_rotation = 8e-3})->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(path, unilateral_448_to_12_Nm, "unilateral", PathRange{.end_torque = 6000.0})->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(path, linear_140_to_8_mrad, "linear_140", PathRange{.end_rotation = 8e-3})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(path, unilateral_448_to_12_Nm, "unilateral", PathRange{.end_torque = 6000.0})
+    ->Unit(benchmark::kMicrosecond);
 
 } // namespace
 } // namespace strainwave
