@@ -166,5 +166,29 @@ TEST(LcpPath, TwoEqualLobesUnfoldedGiveTheFoldedPath) {
   EXPECT_NEAR(unfolded.end_torque(), 2.0 * folded.end_torque(), 1e-11 * unfolded.end_torque());
 }
 
+TEST(LcpPath, TwoEqualLobesOnTheDiscsGiveTheFoldedPath) {
+  ContactSolver solver;
+  const auto loads = read_json(folder + "/load-path.json"),
+             responses = read_json(folder + "/unit-responses.json");
+  const ContactProblem one = seed_on_discs(loads, responses, solver),
+                       two = seed_on_discs(loads, responses, solver, 2);
+  const EventPath folded = solver.trace(one, {.end_torque = 3500.0});
+  const EventPath unfolded = solver.trace(two, {.end_torque = 7000.0});
+  ASSERT_EQ(unfolded.events().size(), folded.events().size());
+  // Condition of the closed block about 1e4: events agree to 1e4 ε with room, forces to 1e-12 of the largest.
+  const double rounding = 2e-11 * folded.end_rotation();
+  for (std::size_t k = 0; k < folded.events().size(); ++k) {
+    const PathEvent &a = folded.events()[k], &b = unfolded.events()[k];
+    EXPECT_EQ(b.change_count, 2 * a.change_count) << k;
+    EXPECT_NEAR(b.rotation, a.rotation, rounding) << k;
+    EXPECT_NEAR(b.stiffness_after, 2.0 * a.stiffness_after, 1e-9 * b.stiffness_after) << k;
+  }
+  EXPECT_NEAR(unfolded.end_rotation(), folded.end_rotation(), rounding);
+  const ContactState state = unfolded.at_torque(7000.0), direct = solver.solve_torque(two, 7000.0).value();
+  EXPECT_LT((state.force.head(28) - state.force.segment(28, 28)).cwiseAbs().maxCoeff(),
+            1e-12 * state.force.maxCoeff());
+  EXPECT_LT((state.force - direct.force).cwiseAbs().maxCoeff(), 1e-12 * direct.force.maxCoeff());
+}
+
 } // namespace
 } // namespace strainwave

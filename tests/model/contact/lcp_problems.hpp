@@ -96,62 +96,68 @@ inline ContactProblem random_spd(int n, int rank, double shift, unsigned seed, i
 
 /// The seed gear on its discs: teeth −7 … 20 of load-path.json at tip height and 70 × 2 × 3 wall stations
 /// (half the circumference; both lobes are alike, so responses are sums of offsets k and k + 70) of
-/// unit-responses.json. Teeth first. z = (F towards smaller φ, p outwards): d = G_tt F − G_tw p, w = G_ww p −
+/// unit-responses.json. With lobes = 2 both halves are unknowns of their own (56 + 840) and every event
+/// concerns a pair. Teeth first. z = (F towards smaller φ, p outwards): d = G_tt F − G_tw p, w = G_ww p −
 /// G_wt F, hence M = [[G_tt, −G_tw], [−G_wt, G_ww]]. Wall gaps w − [e cos φ + √(R² − e² sin² φ) − r_m],
 /// linearised, R = r_m + u0 − e; q of the teeth is backlash − d of the assembly, so that the teeth's gaps on
 /// the unloaded discs are the backlash.
 inline ContactProblem seed_on_discs(const nlohmann::json& load_reference, const nlohmann::json& responses,
-                                    ContactSolver& solver) {
-  constexpr int teeth = 140, lobe = 70, rows = 3, stations = 2;
+                                    ContactSolver& solver, int lobes = 1) {
+  constexpr int sectors = 140, half = 70, rows = 3, stations = 2, per_pitch = rows * stations;
   constexpr double u0 = 0.2, e = 0.6, r_m = 14.006, disc = r_m + u0 - e;
-  const auto& tooth_tooth = responses["tooth_from_tooth"][1][1];
-  const auto& wall_tooth = responses["wall_from_tooth"][1];
-  const auto& wall_wall = responses["wall_from_wall"];
-  const auto pair = [](const nlohmann::json& row, int k) {
-    const int wrapped = ((k % teeth) + teeth) % teeth;
-    return row[static_cast<std::size_t>(wrapped)].get<double>() +
-           row[static_cast<std::size_t>((wrapped + lobe) % teeth)].get<double>();
+  const auto wrap = [](int k) { return ((k % sectors) + sectors) % sectors; };
+  /// Response k sectors further; of a loaded pair when the lobes are folded.
+  const auto table = [&](const nlohmann::json& row) {
+    const auto v = row.get<std::vector<double>>();
+    std::vector<double> sum(v);
+    if (lobes == 1)
+      for (int k = 0; k < sectors; ++k)
+        sum[static_cast<std::size_t>(k)] += v[static_cast<std::size_t>(wrap(k + half))];
+    return sum;
   };
-  const auto tooth = load_reference["tooth"].get<std::vector<int>>();
-  const int nt = static_cast<int>(tooth.size()), per_pitch = stations * rows, nw = lobe * per_pitch,
-            n = nt + nw;
+  const std::vector<double> tooth_tooth = table(responses["tooth_from_tooth"][1][1]);
+  std::vector<std::vector<double>> wall_tooth, wall_wall; // [wall functional], [load × per_pitch + response]
+  for (int a = 0; a < per_pitch; ++a)
+    wall_tooth.push_back(table(responses["wall_from_tooth"][1][static_cast<std::size_t>(a / rows)]
+                                        [static_cast<std::size_t>(a % rows)]));
+  for (int b = 0; b < per_pitch; ++b)
+    for (int a = 0; a < per_pitch; ++a)
+      wall_wall.push_back(table(responses["wall_from_wall"][static_cast<std::size_t>(
+          b)][static_cast<std::size_t>(a / rows)][static_cast<std::size_t>(a % rows)]));
+  std::vector<int> tooth;
+  for (int lobe = 0; lobe < lobes; ++lobe)
+    for (const int i : load_reference["tooth"].get<std::vector<int>>())
+      tooth.push_back(i + lobe * half);
+  const int nt = static_cast<int>(tooth.size()), nw = lobes * half * per_pitch, n = nt + nw;
+  const auto sector = [&](int w) { return w / per_pitch - half / 2; };
+  const auto at = [&](const std::vector<double>& values, int k) {
+    return values[static_cast<std::size_t>(wrap(k))];
+  };
   ContactProblem p{Eigen::MatrixXd(n, n), Eigen::VectorXd(n), Eigen::VectorXd::Zero(n)};
-  const auto sector = [&](int w) { return w / per_pitch - lobe / 2; };
-  const auto station = [&](int w) { return static_cast<std::size_t>(w % per_pitch / rows); };
-  const auto row_of = [&](int w) { return static_cast<std::size_t>(w % rows); };
-  std::vector<double> tt(teeth), wt(static_cast<std::size_t>(teeth * per_pitch)),
-      ww(static_cast<std::size_t>(teeth * per_pitch * per_pitch));
-  for (int k = 0; k < teeth; ++k) {
-    tt[static_cast<std::size_t>(k)] = pair(tooth_tooth, k);
-    for (int a = 0; a < per_pitch; ++a) {
-      wt[static_cast<std::size_t>(k * per_pitch + a)] = pair(wall_tooth[station(a)][row_of(a)], k);
-      for (int b = 0; b < per_pitch; ++b)
-        ww[static_cast<std::size_t>((k * per_pitch + a) * per_pitch + b)] =
-            pair(wall_wall[static_cast<std::size_t>(b)][station(a)][row_of(a)], k);
-    }
-  }
-  const auto wrap = [](int k) { return ((k % teeth) + teeth) % teeth; };
   for (int i = 0; i < nt; ++i)
     for (int j = 0; j < nt; ++j)
-      p.m(i, j) = tt[static_cast<std::size_t>(
-          wrap(tooth[static_cast<std::size_t>(i)] - tooth[static_cast<std::size_t>(j)]))];
+      p.m(i, j) = at(tooth_tooth, tooth[static_cast<std::size_t>(i)] - tooth[static_cast<std::size_t>(j)]);
   for (int w = 0; w < nw; ++w) {
+    const int a = w % per_pitch;
     for (int j = 0; j < nt; ++j)
-      p.m(nt + w, j) = p.m(j, nt + w) = -wt[static_cast<std::size_t>(
-          wrap(sector(w) - tooth[static_cast<std::size_t>(j)]) * per_pitch + w % per_pitch)];
+      p.m(nt + w, j) = p.m(j, nt + w) =
+          -at(wall_tooth[static_cast<std::size_t>(a)], sector(w) - tooth[static_cast<std::size_t>(j)]);
     for (int v = 0; v < nw; ++v)
-      p.m(nt + w, nt + v) = ww[static_cast<std::size_t>(
-          (wrap(sector(w) - sector(v)) * per_pitch + w % per_pitch) * per_pitch + v % per_pitch)];
-    const double phi = 2.0 * std::numbers::pi * (sector(w) + 0.5 * static_cast<double>(station(w))) / teeth;
+      p.m(nt + w, nt + v) =
+          at(wall_wall[static_cast<std::size_t>(v % per_pitch * per_pitch + a)], sector(w) - sector(v));
+    const int folded =
+        (sector(w) + half / 2) % half - half / 2; // the second disc is the first one turned by half a circle
+    const double phi = 2.0 * std::numbers::pi * (folded + 0.5 * (a / rows)) / sectors;
     p.q[nt + w] = r_m - e * std::cos(phi) - std::sqrt(disc * disc - std::pow(e * std::sin(phi), 2));
   }
   p.m = (0.5 * (p.m + p.m.transpose())).eval();
-  // Unloaded discs first: teeth far away.
-  p.q.head(nt).setConstant(1e3);
+  p.q.head(nt).setConstant(1e3); // unloaded discs first: teeth far away
   const ContactState assembled = solver.solve_at(p, 0.0);
-  p.q.head(nt) =
-      vector_of(load_reference["backlash_mm"]) - p.m.topRightCorner(nt, nw) * assembled.force.tail(nw);
-  p.r.head(nt) = vector_of(load_reference["contact_radius_mm"]);
+  const Eigen::VectorXd backlash = vector_of(load_reference["backlash_mm"]),
+                        radius = vector_of(load_reference["contact_radius_mm"]);
+  const Eigen::VectorXd moved = p.m.topRightCorner(nt, nw) * assembled.force.tail(nw);
+  p.q.head(nt) = backlash.replicate(lobes, 1) - moved;
+  p.r.head(nt) = radius.replicate(lobes, 1);
   return p;
 }
 
