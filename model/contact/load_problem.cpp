@@ -34,32 +34,63 @@ std::vector<ToothFunctional> tooth_functionals(const RingCompliance& ring, std::
   return result;
 }
 
+namespace {
+
+/// What a frozen contact holds: its own compliance and its displacement from unit tooth loads.
+struct HeldWall {
+  std::vector<Eigen::Index> closed; ///< stations; empty when lines are held
+  Eigen::MatrixXd compliance;
+  Eigen::MatrixXd from_teeth;
+};
+
+HeldWall held_wall(const RingCompliance& ring, const AssembledState& assembled,
+                   std::span<const ToothFunctional> teeth) {
+  HeldWall held;
+  if (assembled.hold.size() > 0) {
+    held.compliance = assembled.hold * assembled.compliance * assembled.hold.transpose();
+    held.from_teeth = assembled.hold * ring.wall_tooth(assembled.stations, assembled.normal, teeth);
+    return held;
+  }
+  std::vector<WallStation> stations;
+  for (std::size_t i = 0; i < assembled.active.size(); ++i) {
+    if (!assembled.active[i]) continue;
+    stations.push_back(assembled.stations[i]);
+    held.closed.push_back(static_cast<Eigen::Index>(i));
+  }
+  held.compliance = assembled.compliance(held.closed, held.closed);
+  held.from_teeth = ring.wall_tooth(stations, assembled.normal(held.closed, Eigen::all), teeth);
+  return held;
+}
+
+} // namespace
+
 Eigen::MatrixXd frozen_compliance(const RingCompliance& ring, const AssembledState& assembled,
                                   std::span<const ToothFunctional> teeth) {
   Eigen::MatrixXd d = ring.tooth_tooth(teeth);
-  Eigen::MatrixXd wall;      // compliance of what is held
-  Eigen::MatrixXd wall_tooth; // its displacement from unit tooth loads
-  if (assembled.hold.size() > 0) {
-    wall = assembled.hold * assembled.compliance * assembled.hold.transpose();
-    wall_tooth = assembled.hold * ring.wall_tooth(assembled.stations, assembled.normal, teeth);
-  } else {
-    std::vector<WallStation> closed;
-    std::vector<Eigen::Index> at;
-    for (std::size_t i = 0; i < assembled.active.size(); ++i) {
-      if (!assembled.active[i]) continue;
-      closed.push_back(assembled.stations[i]);
-      at.push_back(static_cast<Eigen::Index>(i));
-    }
-    wall = assembled.compliance(at, at);
-    wall_tooth = ring.wall_tooth(closed, assembled.normal(at, Eigen::all), teeth);
-  }
-  if (wall.size() == 0) return d;
+  const HeldWall held = held_wall(ring, assembled, teeth);
+  if (held.compliance.size() == 0) return d;
   // D = G_tt − YᵀY with Y = L⁻¹ G_wt: symmetric by construction.
-  const Eigen::LLT<Eigen::MatrixXd> factor(wall);
-  const Eigen::MatrixXd y = factor.matrixL().solve(wall_tooth);
+  const Eigen::LLT<Eigen::MatrixXd> factor(held.compliance);
+  const Eigen::MatrixXd y = factor.matrixL().solve(held.from_teeth);
   d.selfadjointView<Eigen::Lower>().rankUpdate(y.transpose(), -1.0);
   d.triangularView<Eigen::StrictlyUpper>() = d.transpose();
   return d;
+}
+
+Eigen::MatrixX2d frozen_reaction(const RingCompliance& ring, const AssembledState& assembled,
+                                 std::span<const ToothFunctional> teeth, const Eigen::VectorXd& tooth_force) {
+  const HeldWall held = held_wall(ring, assembled, teeth);
+  Eigen::VectorXd along = Eigen::VectorXd::Zero(assembled.force_n.size());
+  if (held.compliance.size() > 0) {
+    // Tooth forces act along minus their functionals, so the wall would move by −G_wt F; the reaction takes it back.
+    const Eigen::VectorXd reaction = held.compliance.llt().solve(held.from_teeth * tooth_force);
+    if (assembled.hold.size() > 0) {
+      along = assembled.hold.transpose() * reaction;
+    } else {
+      along(held.closed) = reaction;
+    }
+  }
+  return assembled.normal.array().colwise() * along.array();
 }
 
 LoadProblem linear_problem(const RingCompliance& ring, const AssembledState& assembled,

@@ -40,6 +40,11 @@ struct LoadProblem {
 Eigen::MatrixXd frozen_compliance(const RingCompliance& ring, const AssembledState& assembled,
                                   std::span<const ToothFunctional> teeth);
 
+/// Wall forces (radial, circumferential; one line a station; N) with which a frozen contact answers tooth forces: the
+/// change that keeps the held wall where assembly put it.
+Eigen::MatrixX2d frozen_reaction(const RingCompliance& ring, const AssembledState& assembled,
+                                 std::span<const ToothFunctional> teeth, const Eigen::VectorXd& tooth_force);
+
 std::vector<ToothFunctional> tooth_functionals(const RingCompliance& ring, std::span<const LoadedPoint> points);
 
 LoadProblem linear_problem(const RingCompliance& ring, const AssembledState& assembled,

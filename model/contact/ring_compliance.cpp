@@ -207,6 +207,26 @@ Eigen::MatrixX2d RingCompliance::wall_displacement(std::span<const WallStation> 
   return result;
 }
 
+Eigen::VectorXd RingCompliance::tooth_displacement(std::span<const ToothFunctional> of,
+                                                   std::span<const ToothFunctional> loaded,
+                                                   const Eigen::VectorXd& force) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(of.size()));
+  for (Eigen::Index j = 0; j < force.size(); ++j) {
+    if (force(j) == 0.0) continue;
+    const ToothFunctional& load = loaded[static_cast<std::size_t>(j)];
+    for (Eigen::Index i = 0; i < result.size(); ++i) {
+      const ToothFunctional& at = of[static_cast<std::size_t>(i)];
+      const Eigen::MatrixXd& g = all_[static_cast<std::size_t>(wrapped(at.sector - load.sector))];
+      double sum = 0.0;
+      for (const auto& [b, weight_b] : load.weights) {
+        for (const auto& [a, weight_a] : at.weights) sum += weight_a * weight_b * g(a, b);
+      }
+      result(i) += sum * force(j);
+    }
+  }
+  return result;
+}
+
 Eigen::VectorXd RingCompliance::tooth_displacement(std::span<const ToothFunctional> teeth,
                                                    std::span<const WallStation> loaded,
                                                    const Eigen::MatrixX2d& wall_force) const {

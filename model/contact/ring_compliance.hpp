@@ -69,7 +69,10 @@ public:
                                      const Eigen::MatrixX2d& wall_force, std::span<const ToothFunctional> teeth,
                                      const Eigen::VectorXd& tooth_force) const;
 
-  /// Displacement of the teeth's functionals from wall forces (columns radial, circumferential; N).
+  /// Displacement of the teeth's functionals from forces on other ones (N, along the functionals).
+  Eigen::VectorXd tooth_displacement(std::span<const ToothFunctional> of, std::span<const ToothFunctional> loaded,
+                                     const Eigen::VectorXd& force) const;
+  /// The same from wall forces (columns radial, circumferential; N).
   Eigen::VectorXd tooth_displacement(std::span<const ToothFunctional> teeth, std::span<const WallStation> loaded,
                                      const Eigen::MatrixX2d& wall_force) const;
 
