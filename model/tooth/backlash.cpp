@@ -29,11 +29,11 @@ std::optional<Stretch> shared_stretch(const FlankPair::Prepared& prepared, const
     return std::nullopt;
   const auto roll = [&](double radius) { return roll_at(prepared, place, root, tip, radius); };
   const Mark lo = root >= prepared.inner_radius
-                      ? Mark{tooth.t_inner, ContactPlace::flexspline_root, 0}
-                      : Mark{roll(prepared.inner_radius), ContactPlace::circular_spline_tip, 0};
+                      ? Mark{tooth.t_inner, ContactPlace::flexspline_root}
+                      : Mark{roll(prepared.inner_radius), ContactPlace::circular_spline_tip};
   const Mark hi = tip <= prepared.outer_radius
-                      ? Mark{tooth.t_outer, ContactPlace::flexspline_tip, 0}
-                      : Mark{roll(prepared.outer_radius), ContactPlace::circular_spline_root, 0};
+                      ? Mark{tooth.t_outer, ContactPlace::flexspline_tip}
+                      : Mark{roll(prepared.outer_radius), ContactPlace::circular_spline_root};
   return Stretch{lo, hi, root, tip};
 }
 
@@ -41,44 +41,57 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Sub-intervals for each smooth stretch. Between them a cubic through values and slopes shows where a
-/// minimum hides; the gap is analytic there and its stretches are short against its radius of curvature.
-constexpr int samples = 4;
+/// Sub-intervals of a whole flank without kinks; shorter stretches get their share, at least two. Between
+/// them a cubic through values and slopes shows where a minimum hides; the gap is analytic there and its
+/// stretches are short against its radius of curvature.
+constexpr int samples_per_flank = 4;
 
-bool is_kink(const Mark& m) {
-  return m.place == ContactPlace::flexspline_kink || m.place == ContactPlace::circular_spline_kink;
-}
-
+/// Goes along the flank from mark to mark and keeps the lowest candidate.
 class Search {
 public:
-  Search(const ToothPair<double>& pair, const Placement<double>& place) : pair_(pair), place_(place) {}
+  /// `start` is an end of the shared flank, and so a candidate.
+  Search(const ToothPair<double>& pair, const Placement<double>& place, const Mark& start)
+      : pair_(pair), place_(place), mark_(start), at_mark_(flank_gap(pair, place, start.t)) {
+    offer(at_mark_, start);
+  }
 
-  /// Least gap between two marks; both marks are candidates themselves.
-  void stretch(const Mark& from, const Mark& to) {
-    const Gap<double> first = flank_gap(pair_, place_, from.t), last = flank_gap(pair_, place_, to.t);
-    offer(first, from);
-    if (!(to.t > from.t))
-      return;
-    offer(last, to);
-    // At a kink the slope belongs to one side or the other by rounding: stay a hair off. A minimum in between
-    // is flat enough to differ from the mark's own value by less than rounding.
-    const double hair = 1e-8 * (to.t - from.t);
-    const double a = is_kink(from) ? from.t + hair : from.t, b = is_kink(to) ? to.t - hair : to.t;
+  /// The smooth stretch from the last mark to this one. The mark itself is a candidate when it is an end or
+  /// sharp.
+  void go_to(const Mark& to, bool end) {
+    const Gap<double> last = flank_gap(pair_, place_, to.t);
+    if (end || to.sharp)
+      offer(last, to);
+    if (to.t > mark_.t) {
+      // Where the slope jumps, rounding picks its side: stay a hair off. A minimum in the hair differs from
+      // the mark's own value by less than rounding.
+      const double hair = 1e-8 * (to.t - mark_.t);
+      const double a = mark_.sharp ? mark_.t + hair : mark_.t, b = to.sharp ? to.t - hair : to.t;
+      smooth(a, mark_.sharp ? flank_gap(pair_, place_, a) : at_mark_, b,
+             to.sharp ? flank_gap(pair_, place_, b) : last);
+    }
+    mark_ = to;
+    at_mark_ = last;
+  }
+
+  ToothBacklash best() const { return best_; }
+
+private:
+  void smooth(double a, const Gap<double>& at_a, double b, const Gap<double>& at_b) {
+    const Flank<double>& flank = pair_.flexspline;
+    const double share = (b - a) / (flank.t_outer - flank.t_inner);
+    const int samples = std::max(2, static_cast<int>(std::ceil(samples_per_flank * share)));
     const double width = (b - a) / samples;
     double t = a;
-    Gap<double> left = is_kink(from) ? flank_gap(pair_, place_, a) : first;
+    Gap<double> left = at_a;
     for (int k = 1; k <= samples; ++k) {
       const double next = k == samples ? b : a + k * width;
-      const Gap<double> right = k == samples && !is_kink(to) ? last : flank_gap(pair_, place_, next);
+      const Gap<double> right = k == samples ? at_b : flank_gap(pair_, place_, next);
       inside(t, left, next, right, 0);
       t = next;
       left = right;
     }
   }
 
-  ToothBacklash best() const { return best_; }
-
-private:
   void offer(const Gap<double>& at, const Mark& mark) {
     if (best_.overlap && !(at.gap < best_.backlash_mm))
       return;
@@ -86,7 +99,7 @@ private:
   }
 
   void inside(double a, const Gap<double>& at_a, double b, const Gap<double>& at_b, int depth) {
-    if (at_a.slope < 0.0 && at_b.slope > 0.0) {
+    if (at_a.slope < 0.0 && at_b.slope >= 0.0) {
       refine(a, at_a, b, at_b);
       return;
     }
@@ -113,11 +126,13 @@ private:
         [&](double t) { return flank_gap(pair_, place_, t).slope; }, a, b, at_a.slope, at_b.slope,
         boost::math::tools::eps_tolerance<double>(50), evaluations);
     const double t = 0.5 * (lo + hi);
-    offer(flank_gap(pair_, place_, t), {t, ContactPlace::flank, 0});
+    offer(flank_gap(pair_, place_, t), {t, ContactPlace::flank});
   }
 
   const ToothPair<double>& pair_;
   const Placement<double>& place_;
+  Mark mark_;
+  Gap<double> at_mark_;
   ToothBacklash best_;
 };
 
@@ -126,28 +141,25 @@ ToothBacklash least_gap(const FlankPair::Prepared& prepared, const Placement<dou
   if (!stretch)
     return {};
   const auto& [lo, hi, root_radius, tip_radius] = *stretch;
-  Search search(prepared.pair, place);
-  if (prepared.flexspline_breaks.empty() && prepared.circular_spline_breaks.empty()) {
-    search.stretch(lo, hi);
-    return search.best();
+  Search search(prepared.pair, place, lo);
+  if (!prepared.flexspline_breaks.empty() || !prepared.circular_spline_breaks.empty()) {
+    std::vector<Mark> marks;
+    int index = 0;
+    for (const auto& b : prepared.flexspline_breaks)
+      marks.push_back({b.at, ContactPlace::flexspline_kink, index++, b.sharp});
+    index = 0;
+    for (const auto& b : prepared.circular_spline_breaks) {
+      if (b.at > root_radius && b.at < tip_radius)
+        marks.push_back({roll_at(prepared, place, root_radius, tip_radius, b.at),
+                         ContactPlace::circular_spline_kink, index, b.sharp});
+      ++index;
+    }
+    std::stable_sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) { return a.t < b.t; });
+    for (const Mark& mark : marks)
+      if (mark.t > lo.t && mark.t < hi.t)
+        search.go_to(mark, false);
   }
-  std::vector<Mark> marks{lo, hi};
-  for (std::size_t i = 0; i < prepared.flexspline_breaks.size(); ++i)
-    marks.push_back({prepared.flexspline_breaks[i], ContactPlace::flexspline_kink, static_cast<int>(i)});
-  for (std::size_t i = 0; i < prepared.circular_spline_breaks.size(); ++i) {
-    const double radius = prepared.circular_spline_breaks[i];
-    if (radius > root_radius && radius < tip_radius)
-      marks.push_back({roll_at(prepared, place, root_radius, tip_radius, radius),
-                       ContactPlace::circular_spline_kink, static_cast<int>(i)});
-  }
-  std::erase_if(marks, [&](const Mark& m) {
-    const bool kink =
-        m.place == ContactPlace::flexspline_kink || m.place == ContactPlace::circular_spline_kink;
-    return kink && !(m.t > lo.t && m.t < hi.t);
-  });
-  std::stable_sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) { return a.t < b.t; });
-  for (std::size_t i = 1; i < marks.size(); ++i)
-    search.stretch(marks[i - 1], marks[i]);
+  search.go_to(hi, true);
   return search.best();
 }
 
@@ -166,10 +178,11 @@ Outcome<FlankPair> FlankPair::make(const Gear& gear, double zeta) {
   const Flank<double>& space = prepared->pair.circular_spline;
   prepared->inner_radius = circular_spline_radius(space, space.t_inner);
   prepared->outer_radius = circular_spline_radius(space, space.t_outer);
-  for (double h : tooth.removal.breaks())
-    prepared->flexspline_breaks.push_back(tooth.roll_at_height(h));
-  for (double h : space.removal.breaks())
-    prepared->circular_spline_breaks.push_back(circular_spline_radius(space, space.roll_at_height(h)));
+  for (const auto& [h, sharp] : tooth.removal.breaks())
+    prepared->flexspline_breaks.push_back({tooth.roll_at_height(h), sharp});
+  for (const auto& [h, sharp] : space.removal.breaks())
+    prepared->circular_spline_breaks.push_back(
+        {circular_spline_radius(space, space.roll_at_height(h)), sharp});
   FlankPair pair;
   pair.prepared_ = std::move(prepared);
   return pair;
