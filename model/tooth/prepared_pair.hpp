@@ -41,6 +41,9 @@ std::optional<Stretch> shared_stretch(const FlankPair::Prepared&, const Placemen
 double roll_at(const FlankPair::Prepared&, const Placement<double>&, double root_radius, double tip_radius,
                double radius);
 
+/// The backlash of one placed tooth.
+ToothBacklash least_gap(const FlankPair::Prepared&, const Placement<double>&);
+
 /// The teeth a gear's window selects, for one phase: index, folded material angle, lobe; ascending on each
 /// lobe.
 struct SelectedTooth {
