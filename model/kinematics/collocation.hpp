@@ -7,9 +7,8 @@
 // n + 3 equations for psi, a, h and e (notation of shooting.hpp). Integrated instead of differentiated
 // because the integration matrix keeps rounding at 1e-16 where differentiation would lift it to n^4 1e-16.
 // Newton from the shooting's solution takes two or three steps; the last factorization gives the derivatives
-// with respect to r_m, u0 and the given number (implicit differentiation). Source of the method: N. Mai-Duy,
-// An effective spectral collocation method for the direct solution of high-order ODEs, Commun. Numer. Meth.
-// Engng 22 (2006) 627.
+// with respect to r_m, u0 and the given number (implicit differentiation).
+// Source of the method: L. Greengard, SIAM J. Numer. Anal. 28 (1991) 1071, spectral integration.
 
 #include "model/kinematics/chebyshev.hpp"
 #include "model/kinematics/shooting.hpp"
