@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <numbers>
 #include <stdexcept>
@@ -59,6 +60,9 @@ struct HarmonicResponse {
   MatrixXd real, imaginary;
 };
 
+/// Harmonics in which the cup moves most: axially and about its axis, tilt, the oval, the clover.
+constexpr int refined_harmonics = 4;
+
 class HarmonicSolver {
 public:
   HarmonicSolver(const SectorMesh& mesh_in, const Material& material,
@@ -72,26 +76,53 @@ public:
         loads.push_back(&functionals[a].next);
         with_next.push_back(static_cast<Index>(a));
       }
-    sector = condense(mesh, material, loads);
-    pencil = mirror_pencil(sector);
+    sector = std::make_unique<CondensedSector>(mesh, material, loads);
+    pencil = mirror_pencil(*sector);
   }
 
   HarmonicResponse solve(int harmonic) const {
+    const Wave wave = wave_of(harmonic);
+    const MatrixXd lower = factor(harmonic, wave), y = forward(lower, wave);
+    if (harmonic < refined_harmonics)
+      return refined(lower, y, wave);
+    const int n = static_cast<int>(y.rows()), columns = static_cast<int>(y.cols());
+    const double one = 1.0, zero = 0.0;
+    MatrixXd product(columns, columns);
+    dsyrk_("L", "T", &columns, &n, &one, y.data(), &n, &zero, product.data(), &columns);
+    product.triangularView<Eigen::StrictlyUpper>() = product.transpose();
+    const HarmonicResponse outside = hermitian(product), within = inside(wave);
+    return {outside.real + within.real, outside.imaginary + within.imaginary};
+  }
+
+private:
+  struct Wave {
+    double cosine, sine; ///< of α
+  };
+  Wave wave_of(int harmonic) const {
     const double alpha = 2.0 * std::numbers::pi * harmonic / mesh.sectors;
-    const double cosine = std::cos(alpha), sine = std::sin(alpha);
-    MatrixXd stiffness = pencil.base + cosine * pencil.even + sine * pencil.odd;
-    const int n = static_cast<int>(stiffness.rows()), columns = static_cast<int>(2 * count);
+    return {std::cos(alpha), std::sin(alpha)};
+  }
+
+  /// Lower Cholesky factor of Dᴴ K_h D.
+  MatrixXd factor(int harmonic, const Wave& wave) const {
+    MatrixXd lower = pencil.base + wave.cosine * pencil.even + wave.sine * pencil.odd;
+    const int n = static_cast<int>(lower.rows());
     int info = 0;
-    dpotrf_("L", &n, stiffness.data(), &n, &info);
+    dpotrf_("L", &n, lower.data(), &n, &info);
     if (info != 0)
       throw std::logic_error(fmt::format("harmonic {} of the ring is not positive definite (pivot {} of {})",
                                          harmonic, info, n));
+    return lower;
+  }
 
-    // Real parts in the first columns, imaginary parts behind them.
+  /// Y = L⁻¹ Dᴴ (f̂_l + e^{−iα} f̂_r): real parts in the first columns, imaginary parts behind them.
+  MatrixXd forward(const MatrixXd& lower, const Wave& wave) const {
+    const auto [cosine, sine] = wave;
+    const int n = static_cast<int>(lower.rows()), columns = static_cast<int>(2 * count);
     MatrixXd y(n, 2 * count);
     const auto parts = static_cast<Index>(with_next.size());
-    MatrixXd real = sector.load.topRows(n) + cosine * sector.load.bottomRows(n);
-    MatrixXd imaginary = -sine * sector.load.bottomRows(n);
+    const MatrixXd real = sector->load.topRows(n) + cosine * sector->load.bottomRows(n);
+    const MatrixXd imaginary = -sine * sector->load.bottomRows(n);
     y.leftCols(count) = real.leftCols(count);
     y.rightCols(count) = imaginary.leftCols(count);
     for (Index p = 0; p < parts; ++p) { // times e^{−iα}
@@ -99,28 +130,56 @@ public:
       y.col(a) += cosine * real.col(count + p) + sine * imaginary.col(count + p);
       y.col(count + a) += cosine * imaginary.col(count + p) - sine * real.col(count + p);
     }
-    for (Index p = 0; p < n; ++p) // Dᴴ: times −i on circumferential rows
-      if (sector.boundary[static_cast<std::size_t>(p)] % 3 == 1) {
+    for (Index p = 0; p < n; ++p)
+      if (circumferential(p)) { // Dᴴ: times −i
         const Eigen::RowVectorXd old = y.row(p).head(count);
         y.row(p).head(count) = y.row(p).tail(count);
         y.row(p).tail(count) = -old;
       }
-    const double one = 1.0, zero = 0.0;
-    dtrsm_("L", "L", "N", "N", &n, &columns, &one, stiffness.data(), &n, y.data(), &n);
-    MatrixXd product(columns, columns);
-    dsyrk_("L", "T", &columns, &n, &one, y.data(), &n, &zero, product.data(), &columns);
-    product.triangularView<Eigen::StrictlyUpper>() = product.transpose();
-
-    HarmonicResponse g = inside(cosine, sine);
-    g.real += product.topLeftCorner(count, count) + product.bottomRightCorner(count, count);
-    g.imaginary += product.topRightCorner(count, count) - product.bottomLeftCorner(count, count);
-    return g;
+    const double one = 1.0;
+    dtrsm_("L", "L", "N", "N", &n, &columns, &one, lower.data(), &n, y.data(), &n);
+    return y;
   }
 
-private:
+  bool circumferential(Index p) const { return sector->boundary[static_cast<std::size_t>(p)] % 3 == 1; }
+
+  /// G_h from the displacements themselves, without the rounding of condensation and factorization
+  /// (condensation.hpp).
+  HarmonicResponse refined(const MatrixXd& lower, MatrixXd x, const Wave& wave) const {
+    const auto [cosine, sine] = wave;
+    const int n = static_cast<int>(x.rows()), columns = static_cast<int>(x.cols());
+    const double one = 1.0;
+    dtrsm_("L", "L", "T", "N", &n, &columns, &one, lower.data(), &n, x.data(), &n);
+    for (Index p = 0; p < n; ++p)
+      if (circumferential(p)) { // D: times i
+        const Eigen::RowVectorXd old = x.row(p).head(count);
+        x.row(p).head(count) = -x.row(p).tail(count);
+        x.row(p).tail(count) = old;
+      }
+    MatrixXd boundary(2 * n, columns);
+    boundary.topRows(n) = x;
+    boundary.bottomRows(n).leftCols(count) = cosine * x.leftCols(count) - sine * x.rightCols(count);
+    boundary.bottomRows(n).rightCols(count) = sine * x.leftCols(count) + cosine * x.rightCols(count);
+    MatrixXd force = MatrixXd::Zero(sector->loads.rows(), columns);
+    force.leftCols(count) = sector->loads.leftCols(count);
+    for (std::size_t p = 0; p < with_next.size(); ++p) {
+      const auto next = sector->loads.col(count + static_cast<Index>(p));
+      force.col(with_next[p]) += cosine * next;
+      force.col(count + with_next[p]) -= sine * next;
+    }
+    return hermitian(sector->energy(force, boundary));
+  }
+
+  /// Zᴴ Z from the product of its real and imaginary columns with themselves.
+  HarmonicResponse hermitian(const MatrixXd& product) const {
+    return {product.topLeftCorner(count, count) + product.bottomRightCorner(count, count),
+            product.topRightCorner(count, count) - product.bottomLeftCorner(count, count)};
+  }
+
   /// f̂ᴴ W f̂ with f̂ = here + e^{−iα} next.
-  HarmonicResponse inside(double cosine, double sine) const {
-    const MatrixXd& w = sector.inside;
+  HarmonicResponse inside(const Wave& wave) const {
+    const auto [cosine, sine] = wave;
+    const MatrixXd& w = sector->inside;
     HarmonicResponse g = {w.topLeftCorner(count, count), MatrixXd::Zero(count, count)};
     const auto parts = static_cast<Index>(with_next.size());
     for (Index p = 0; p < parts; ++p) {
@@ -139,7 +198,7 @@ private:
   Index count;
   std::vector<Index>
       with_next; ///< functionals with a part on the next sector: their columns follow the others
-  CondensedSector sector;
+  std::unique_ptr<CondensedSector> sector;
   HarmonicPencil pencil;
 };
 

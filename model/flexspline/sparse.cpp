@@ -3,8 +3,7 @@
 #include "model/flexspline/blas.hpp"
 
 #include <algorithm>
-#include <cassert>
-#include <cstring>
+#include <cmath>
 #include <new>
 #include <stdexcept>
 
@@ -74,6 +73,30 @@ void SparseAssembly::add(const std::array<int, 60>& unknown, const Eigen::Matrix
   }
 }
 
+Eigen::MatrixXd residual(const SparseAssembly& k, const Eigen::MatrixXd& f, const Eigen::MatrixXd& u) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const RowMajor x = u;
+  RowMajor high = f, low = RowMajor::Zero(f.rows(), f.cols());
+  const Eigen::Index columns = f.cols();
+  const auto subtract = [&](Eigen::Index row, double factor, Eigen::Index from) {
+    double* h = &high(row, 0);
+    double* l = &low(row, 0);
+    const double* at = &x(from, 0);
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      const double p = -factor * at[c], lost = std::fma(-factor, at[c], -p);
+      const double sum = h[c] + p, back = sum - h[c];
+      l[c] += (h[c] - (sum - back)) + (p - back) + lost;
+      h[c] = sum;
+    }
+  };
+  for (std::size_t n = 0; n < k.value.size(); ++n) {
+    subtract(k.row[n], k.value[n], k.column[n]);
+    if (k.row[n] != k.column[n])
+      subtract(k.column[n], k.value[n], k.row[n]);
+  }
+  return high + low;
+}
+
 SparseCholesky::SparseCholesky(const SparseAssembly& assembly, int inside)
     : content(std::make_unique<Content>()) {
   cholmod_common* common = &content->common;
@@ -115,6 +138,15 @@ Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& b) const {
 
 Eigen::MatrixXd SparseCholesky::forward(const Eigen::MatrixXd& b) const {
   return content->solve(CHOLMOD_L, content->solve(CHOLMOD_P, b));
+}
+
+Eigen::MatrixXd SparseCholesky::solve_inside(const Eigen::MatrixXd& b) const {
+  const auto size = static_cast<Eigen::Index>(content->factor->n), inside = b.rows();
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(size, b.cols());
+  x.topRows(inside) = b;
+  x = forward(x);
+  x.bottomRows(size - inside).setZero();
+  return content->solve(CHOLMOD_Pt, content->solve(CHOLMOD_Lt, x)).topRows(inside);
 }
 
 std::vector<int> SparseCholesky::order() const {

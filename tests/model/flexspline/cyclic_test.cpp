@@ -78,7 +78,10 @@ TEST(Cyclic, responses_are_reciprocal) {
 }
 
 TEST(Cyclic, flank_compliance_is_symmetric_and_positive_definite) {
-  const UnitResponses g = unit_responses(testing_bodies::broad_toothed_cup()).value();
+  ResponseRequest request = testing_bodies::broad_toothed_cup();
+  request.flank_heights = 3;
+  request.face_slices = 3;
+  const UnitResponses g = unit_responses(request).value();
   const int n = g.flank_count();
   Eigen::MatrixXd d(g.sectors * n, g.sectors * n);
   for (int i = 0; i < g.sectors; ++i)
@@ -88,7 +91,7 @@ TEST(Cyclic, flank_compliance_is_symmetric_and_positive_definite) {
           d(i * n + a, j * n + b) = g(i - j, a, b);
   EXPECT_LT((d - d.transpose()).cwiseAbs().maxCoeff(), 1e-12 * d.cwiseAbs().maxCoeff());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(d);
-  EXPECT_GT(eigen.eigenvalues()[0], 1e-6 * d.cwiseAbs().maxCoeff());
+  EXPECT_GT(eigen.eigenvalues()[0], 1e-9 * d.cwiseAbs().maxCoeff()) << "rounding is 1e-12";
 }
 
 TEST(Cyclic, number_of_threads_does_not_change_a_bit) {
@@ -109,7 +112,9 @@ TEST(Cyclic, turning_the_model_changes_nothing) {
   double worst = 0.0;
   for (std::size_t n = 0; n < straight.size(); ++n)
     worst = std::max(worst, std::fabs(straight[n] - turned[n]));
-  EXPECT_LT(worst, 1e-10 * largest(straight));
+  // Every entry of K is rounded anew; the free cup multiplies that by |K| |u|²/energy ≈ 10⁷
+  // (condensation.hpp).
+  EXPECT_LT(worst, 1e-8 * largest(straight));
 }
 
 TEST(Cyclic, a_sector_that_is_not_its_mirror_image_is_refused) {
@@ -150,6 +155,9 @@ TEST(Cyclic, impossible_requests_have_a_sentence) {
   };
   EXPECT_NE(message([](ResponseRequest& r) { r.flank_heights = 1; }).find("flank_heights"),
             std::string::npos);
+  EXPECT_NE(message([](ResponseRequest& r) { r.flank_heights = 6; }).find("tooth_height = 3"),
+            std::string::npos);
+  EXPECT_NE(message([](ResponseRequest& r) { r.face_slices = 7; }).find("along_face = 3"), std::string::npos);
   EXPECT_NE(message([](ResponseRequest& r) { r.wall_offset = {1.0}; }).find("station"), std::string::npos);
   EXPECT_NE(message([](ResponseRequest& r) { r.wall_z_mm = {29.0}; }).find("29"), std::string::npos);
   EXPECT_NE(message([](ResponseRequest& r) {
