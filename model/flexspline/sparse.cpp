@@ -28,16 +28,22 @@ struct SparseCholesky::Content {
     cholmod_free_factor(&factor, &common);
     cholmod_finish(&common);
   }
-  void check(const char* what) const {
-    if (common.status == CHOLMOD_OUT_OF_MEMORY)
+  void check(const cholmod_common& state, const char* what) const {
+    if (state.status == CHOLMOD_OUT_OF_MEMORY)
       throw std::bad_alloc();
-    if (common.status == CHOLMOD_NOT_POSDEF)
+    if (state.status == CHOLMOD_NOT_POSDEF)
       throw std::logic_error(fmt::format("stiffness matrix is not positive definite at unknown {} of {}",
                                          factor ? factor->minor : 0, factor ? factor->n : 0));
-    if (common.status < CHOLMOD_OK)
-      throw std::logic_error(fmt::format("CHOLMOD failed in {} ({})", what, common.status));
+    if (state.status < CHOLMOD_OK)
+      throw std::logic_error(fmt::format("CHOLMOD failed in {} ({})", what, state.status));
   }
-  Eigen::MatrixXd solve(int system, const Eigen::MatrixXd& b) {
+  /// Several threads may solve at once: the factor is only read, the workspace is each call's own.
+  Eigen::MatrixXd solve(int system, const Eigen::MatrixXd& b) const {
+    struct Workspace : cholmod_common {
+      Workspace() : cholmod_common{} { cholmod_start(this); }
+      ~Workspace() { cholmod_finish(this); }
+    } workspace;
+    workspace.print = 0;
     cholmod_dense view{};
     view.nrow = static_cast<std::size_t>(b.rows());
     view.ncol = static_cast<std::size_t>(b.cols());
@@ -46,12 +52,12 @@ struct SparseCholesky::Content {
     view.x = const_cast<double*>(b.data()); // CHOLMOD reads it only
     view.xtype = CHOLMOD_REAL;
     view.dtype = CHOLMOD_DOUBLE;
-    cholmod_dense* x = cholmod_solve(system, factor, &view, &common);
+    cholmod_dense* x = cholmod_solve(system, factor, &view, &workspace);
     if (x == nullptr)
-      check("solve");
+      check(workspace, "a solve");
     Eigen::MatrixXd result =
         Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), b.rows(), b.cols());
-    cholmod_free_dense(&x, &common);
+    cholmod_free_dense(&x, &workspace);
     return result;
   }
 };
@@ -113,7 +119,7 @@ SparseCholesky::SparseCholesky(const SparseAssembly& assembly, int inside)
   triplet.dtype = CHOLMOD_DOUBLE;
   cholmod_sparse* matrix = cholmod_triplet_to_sparse(&triplet, triplet.nnz, common);
   if (matrix == nullptr)
-    content->check("gathering the matrix");
+    content->check(*common, "gathering the matrix");
   if (inside >= 0) {
     std::vector<int> member(n, 0), order(n);
     std::fill(member.begin() + inside, member.end(), 1);
@@ -127,7 +133,7 @@ SparseCholesky::SparseCholesky(const SparseAssembly& assembly, int inside)
   if (content->factor != nullptr)
     cholmod_factorize(matrix, content->factor, common);
   cholmod_free_sparse(&matrix, common);
-  content->check("the factorization");
+  content->check(*common, "the factorization");
 }
 
 SparseCholesky::~SparseCholesky() = default;
