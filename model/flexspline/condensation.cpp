@@ -63,10 +63,10 @@ CondensedSector::CondensedSector(const SectorMesh& mesh, const Material& materia
   content = std::make_unique<Content>(Content{SparseAssembly(numbering.total), nullptr, numbering.inside});
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const ElementStiffness element = cylindrical_stiffness(mesh, static_cast<int>(e), material);
-    std::array<int, 60> unknown{};
+    std::array<int, 60> place{};
     for (std::size_t a = 0; a < 60; ++a)
-      unknown[a] = numbering.unknown[3 * static_cast<std::size_t>(mesh.elements[e][a / 3]) + a % 3];
-    content->assembly.add(unknown, element);
+      place[a] = numbering.unknown[3 * static_cast<std::size_t>(mesh.elements[e][a / 3]) + a % 3];
+    content->assembly.add(place, element);
   }
   content->factor = std::make_unique<SparseCholesky>(content->assembly, numbering.inside);
   const SparseCholesky& factor = *content->factor;
@@ -77,14 +77,15 @@ CondensedSector::CondensedSector(const SectorMesh& mesh, const Material& materia
   for (Eigen::Index c = 0; c < columns; ++c) {
     const SectorWeights& each = *weights[static_cast<std::size_t>(c)];
     for (std::size_t n = 0; n < each.dof.size(); ++n) {
-      const int unknown = numbering.unknown[static_cast<std::size_t>(each.dof[n])];
-      if (unknown >= 0)
-        loads(unknown, c) += each.weight[n];
+      const int row = numbering.unknown[static_cast<std::size_t>(each.dof[n])];
+      if (row >= 0)
+        loads(row, c) += each.weight[n];
     }
   }
   const Eigen::MatrixXd y = factor.forward(loads);
 
   boundary = numbering.boundary;
+  unknown = numbering.unknown;
   Eigen::MatrixXd last = factor.last_block(first); // lower triangle, factor order
   inside = y.topRows(first).transpose() * y.topRows(first);
   const Eigen::MatrixXd last_load = last.triangularView<Eigen::Lower>() * y.bottomRows(size);
@@ -108,14 +109,19 @@ CondensedSector::CondensedSector(const SectorMesh& mesh, const Material& materia
 
 CondensedSector::~CondensedSector() = default;
 
-Eigen::MatrixXd CondensedSector::energy(const Eigen::MatrixXd& force,
-                                        const Eigen::MatrixXd& at_boundary) const {
+Eigen::MatrixXd CondensedSector::displacement(const Eigen::MatrixXd& force,
+                                              const Eigen::MatrixXd& at_boundary) const {
   const Eigen::Index first = content->inside, size = at_boundary.rows();
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(first + size, force.cols());
   u.bottomRows(size) = at_boundary;
   u.topRows(first) = content->factor->solve_inside(residual(content->assembly, force, u).topRows(first));
-  const Eigen::MatrixXd rest = residual(content->assembly, force, u);
-  const Eigen::MatrixXd twice = force.transpose() * u + u.transpose() * rest;
+  return u;
+}
+
+Eigen::MatrixXd CondensedSector::energy(const Eigen::MatrixXd& force,
+                                        const Eigen::MatrixXd& at_boundary) const {
+  const Eigen::MatrixXd u = displacement(force, at_boundary);
+  const Eigen::MatrixXd twice = force.transpose() * u + u.transpose() * residual(content->assembly, force, u);
   return 0.5 * (twice + twice.transpose());
 }
 

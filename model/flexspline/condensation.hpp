@@ -39,6 +39,11 @@ public:
   /// `stiffness`), the inside following from them; symmetric.
   Eigen::MatrixXd energy(const Eigen::MatrixXd& force, const Eigen::MatrixXd& at_boundary) const;
 
+  /// Displacements of all unknowns from loads on them and displacements of both boundaries.
+  Eigen::MatrixXd displacement(const Eigen::MatrixXd& force, const Eigen::MatrixXd& at_boundary) const;
+
+  /// Of each degree of freedom 3·node + component: −1 fixed, else its unknown: inside, left, right.
+  std::vector<int> unknown;
   /// Boundary degrees of freedom of sector 0 that are not fixed, as places 3·(index into mesh.left) +
   /// component.
   std::vector<int> boundary;

@@ -69,9 +69,11 @@ void add_sections(const ResponseRequest& r, const SectorMesh& mesh, ResponseFunc
   const Flexspline& f = r.flexspline;
   const double inner = f.neutral_radius_mm - f.rim_thickness_mm / 2.0;
   for (const double z : result.layout.section_z_mm) {
-    const bool behind = z < face_range(f).rear;
-    const double thickness = r.teeth && !behind ? f.root_radius_mm - inner : f.wall_thickness_mm;
-    const double neutral = r.teeth && !behind ? f.neutral_radius_mm : inner + thickness / 2.0;
+    // Behind the face the wall; in the step between them (mesh.hpp) whichever is thinner.
+    const double rear = face_range(f).rear, wall = f.wall_thickness_mm;
+    const double rim = r.teeth ? f.root_radius_mm - inner : wall, step = std::fabs(rim - wall);
+    const double thickness = z >= rear ? rim : z > rear - step ? std::min(rim, wall) : wall;
+    const double neutral = r.teeth && z >= rear ? f.neutral_radius_mm : inner + thickness / 2.0;
     const PointFunctionals at_neutral = point_functionals(mesh, {neutral, 0.0, z});
     const PointFunctionals at_inner = point_functionals(mesh, {inner, 0.0, z});
     const PointFunctionals at_outer = point_functionals(mesh, {inner + thickness, 0.0, z});
