@@ -28,7 +28,7 @@ struct CondensedSector {
   Eigen::MatrixXd inside;    ///< W, symmetric
 };
 
-/// Throws std::logic_error when the sector is not positive definite, std::bad_alloc without memory.
+/// Throws NotPositiveStiffness when the sector is not positive definite, std::bad_alloc without memory.
 CondensedSector condense(const SectorMesh& mesh, const Material& material,
                          const std::vector<const SectorWeights*>& loads);
 

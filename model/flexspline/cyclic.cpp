@@ -2,6 +2,7 @@
 
 #include "model/flexspline/blas.hpp"
 #include "model/flexspline/condensation.hpp"
+#include "model/flexspline/sparse.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -84,8 +85,8 @@ public:
     int info = 0;
     dpotrf_("L", &n, stiffness.data(), &n, &info);
     if (info != 0)
-      throw std::logic_error(fmt::format("harmonic {} of the ring is not positive definite (pivot {} of {})",
-                                         harmonic, info, n));
+      throw NotPositiveStiffness(fmt::format("pivot {} of {} of the ring's harmonic {} is not positive", info, n,
+                                             harmonic));
 
     // Real parts in the first columns, imaginary parts behind them.
     MatrixXd y(n, 2 * count);
