@@ -1,7 +1,5 @@
 #include "model/contact/load_problem.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 namespace strainwave {
@@ -71,6 +69,7 @@ Eigen::MatrixXd frozen_compliance(const RingCompliance& ring, const AssembledSta
   if (held.compliance.size() == 0) return d;
   // D = G_tt − YᵀY with Y = L⁻¹ G_wt: symmetric by construction.
   const Eigen::LLT<Eigen::MatrixXd> factor(held.compliance);
+  if (factor.info() != Eigen::Success) throw NotPositiveDefinite(0, held.compliance.diagonal().minCoeff());
   const Eigen::MatrixXd y = factor.matrixL().solve(held.from_teeth);
   d.selfadjointView<Eigen::Lower>().rankUpdate(y.transpose(), -1.0);
   d.triangularView<Eigen::StrictlyUpper>() = d.transpose();
@@ -133,7 +132,7 @@ LoadProblem unilateral_problem(const RingCompliance& ring, const AssembledState&
 Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGeneratorSurface& surface,
                                         const AssembledState& assembled, const LoadProblem& load,
                                         const ContactState& start, Control control, ContactSolver& solver) {
-  constexpr double tolerance_mm = 1e-11;
+  NewtonEnd end(1e-11); // mm
   constexpr int max_steps = 30;
   const Eigen::Index n = load.point_count;
   const Eigen::Index m = assembled.force_n.size();
@@ -159,12 +158,11 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
     }
     result.residual_mm = (gap - result.state.gap.tail(m)).cwiseAbs().maxCoeff();
     result.newton_steps = step;
-    if (result.residual_mm < tolerance_mm) break;
-    if (step == max_steps) {
-      return Failure{Status::not_converged,
-                     fmt::format("the loaded wall contact did not converge: the exact gap still differs by {:.3g} mm "
-                                 "after {} Newton steps",
-                                 result.residual_mm, max_steps)};
+    const double largest_mm = problem.m.diagonal().maxCoeff() * result.state.force.sum();
+    if (end.reached(result.residual_mm, gap_rounding_mm(n + m, surface.inner_radius_mm(), largest_mm))) break;
+    if (step == max_steps || !std::isfinite(result.residual_mm)) {
+      return Failure{Status::not_converged, describe_divergence("contact of the wall with the wave generator under load",
+                                                                result.residual_mm, step)};
     }
     problem.m.bottomRightCorner(m, m) = ring.wall_wall(assembled.stations, normal);
     const Eigen::MatrixXd wall_tooth = ring.wall_tooth(assembled.stations, normal, load.points);

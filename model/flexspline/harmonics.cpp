@@ -7,6 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "model/flexspline/sparse.hpp"
+
 #include <fmt/format.h>
 
 namespace strainwave {
@@ -106,8 +108,8 @@ MatrixXd HarmonicSolver::factor(int harmonic, const Wave& wave) const {
   int info = 0;
   dpotrf_("L", &n, lower.data(), &n, &info);
   if (info != 0)
-    throw std::logic_error(
-        fmt::format("harmonic {} of the ring is not positive definite (pivot {} of {})", harmonic, info, n));
+    throw NotPositiveStiffness(
+        fmt::format("pivot {} of {} of the ring's harmonic {} is not positive", info, n, harmonic));
   return lower;
 }
 

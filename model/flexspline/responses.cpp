@@ -1,9 +1,11 @@
 #include "model/flexspline/responses.hpp"
 
 #include "model/flexspline/cyclic.hpp"
+#include "model/flexspline/sparse.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
@@ -57,6 +59,32 @@ std::optional<Failure> flaw(const ResponseRequest& r) {
         return no("rows along the axis must ascend");
     }
   return {};
+}
+
+/// Stiffness of thin walls falls with the cube of their thickness and that of a nearly incompressible material grows
+/// beyond bounds; double precision ends near a spread of 10^15. Names the number that spreads it most.
+Failure ill_conditioned(const ResponseRequest& r) {
+  const Flexspline& f = r.flexspline;
+  struct Suspect {
+    const char* name;
+    double value, spread;
+  };
+  const double radius = f.neutral_radius_mm;
+  const auto thin = [&](double length) { return std::pow(radius / length, 3); };
+  const Suspect suspects[] = {
+      {"material.poisson_ratio", r.material.poisson_ratio, 1.0 / (1.0 - 2.0 * r.material.poisson_ratio)},
+      {"flexspline.rim_thickness_mm", f.rim_thickness_mm, thin(f.rim_thickness_mm)},
+      {"flexspline.wall_thickness_mm", f.wall_thickness_mm, thin(f.wall_thickness_mm)},
+      {"flexspline.diaphragm_thickness_mm", f.diaphragm_thickness_mm, thin(f.diaphragm_thickness_mm)},
+      {"flexspline.boss_radius_mm", f.boss_radius_mm, thin(f.boss_radius_mm)},
+      {"flexspline.face_width_mm", f.face_width_mm, thin(f.face_width_mm)},
+      {"flexspline.cup_length_mm", f.cup_length_mm, std::pow(f.cup_length_mm / radius, 3)}};
+  const Suspect& worst = *std::max_element(std::begin(suspects), std::end(suspects),
+                                           [](const Suspect& a, const Suspect& b) { return a.spread < b.spread; });
+  return {Status::ill_conditioned,
+          fmt::format("the flexspline's finite elements cannot be solved in double precision: the stiffness is not positive "
+                      "definite to rounding; most likely {} {} is too extreme for a cup of neutral_radius_mm {}",
+                      worst.name, worst.value, radius)};
 }
 
 /// Half width of the wall hats in z.
@@ -155,7 +183,13 @@ Outcome<UnitResponses> unit_responses(const ResponseRequest& request, int thread
     if (!mesh)
       return mesh.failure();
     ResponseFunctionals plan = response_functionals(request, *mesh);
-    plan.layout.data = cyclic_responses(*mesh, request.material, plan.functionals, threads);
+    try {
+      plan.layout.data = cyclic_responses(*mesh, request.material, plan.functionals, threads);
+    } catch (const NotPositiveStiffness&) {
+      return ill_conditioned(request);
+    }
+    if (!std::all_of(plan.layout.data.begin(), plan.layout.data.end(), [](double g) { return std::isfinite(g); }))
+      return ill_conditioned(request);
     return std::move(plan.layout);
   };
   Outcome<UnitResponses> fine = solve(request.mesh);

@@ -32,8 +32,8 @@ struct SparseCholesky::Content {
     if (state.status == CHOLMOD_OUT_OF_MEMORY)
       throw std::bad_alloc();
     if (state.status == CHOLMOD_NOT_POSDEF)
-      throw std::logic_error(fmt::format("stiffness matrix is not positive definite at unknown {} of {}",
-                                         factor ? factor->minor : 0, factor ? factor->n : 0));
+      throw NotPositiveStiffness(fmt::format("pivot {} of {} of the sector's stiffness is not positive",
+                                             factor ? factor->minor : 0, factor ? factor->n : 0));
     if (state.status < CHOLMOD_OK)
       throw std::logic_error(fmt::format("CHOLMOD failed in {} ({})", what, state.status));
   }

@@ -7,11 +7,17 @@
 
 #include <array>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include <Eigen/Core>
 
 namespace strainwave {
+
+/// A pivot that should be positive is not: a stiffness spread wider than double precision holds.
+struct NotPositiveStiffness : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// Lower triangle of a symmetric n × n matrix, as sums of entries.
 class SparseAssembly {
@@ -35,7 +41,7 @@ Eigen::MatrixXd residual(const SparseAssembly& k, const Eigen::MatrixXd& f, cons
 class SparseCholesky {
 public:
   /// `inside`: the unknowns from this one on are kept last in the order; −1: any order that keeps L sparse
-  /// (METIS or AMD). Throws std::logic_error when the matrix is not positive definite, std::bad_alloc without
+  /// (METIS or AMD). Throws NotPositiveStiffness when the matrix is not positive definite, std::bad_alloc without
   /// memory.
   explicit SparseCholesky(const SparseAssembly& assembly, int inside = -1);
   ~SparseCholesky();
