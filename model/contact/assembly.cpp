@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace strainwave {
@@ -24,6 +25,10 @@ Eigen::Vector2d wall_resultant(const std::vector<WallStation>& stations, const E
   return sum;
 }
 
+double gap_rounding_mm(Eigen::Index unknowns, double radius_mm, double largest_displacement_mm) {
+  return 4.0 * static_cast<double>(unknowns) * std::numeric_limits<double>::epsilon() * (radius_mm + largest_displacement_mm);
+}
+
 namespace {
 
 /// Disc force and the outermost loaded stations of the lobe around φ = 0.
@@ -40,6 +45,15 @@ void summarise(AssembledState& state) {
 }
 
 } // namespace
+
+std::string describe_divergence(const char* what, double change_mm, int steps) {
+  if (!std::isfinite(change_mm)) {
+    return fmt::format("{} did not converge: displacements grow beyond all bounds within {} Newton steps", what, steps);
+  }
+  return fmt::format("{} did not converge: the gap between wall and wave generator still changes by {:.3g} mm after {} "
+                     "Newton steps",
+                     what, change_mm, steps);
+}
 
 Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGeneratorSurface& surface, double phase,
                                  ContactSolver& solver, const AssemblyOptions& options) {
@@ -65,6 +79,8 @@ Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGenerator
   measure();
   ContactProblem problem;
   problem.r = Eigen::VectorXd::Zero(n);
+  NewtonEnd end(options.tolerance_mm);
+  bool converged = false;
   for (int step = 1; step <= options.max_newton_steps; ++step) {
     state.newton_steps = step;
     problem.m = ring.wall_wall(state.stations, state.normal);
@@ -76,13 +92,15 @@ Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGenerator
         ring.wall_displacement(state.stations, state.stations, state.force_components(), {}, Eigen::VectorXd());
     measure();
     state.newton_change_mm = (state.gap_mm - solved.gap).cwiseAbs().maxCoeff();
-    if (state.newton_change_mm < options.tolerance_mm) break;
+    if (!std::isfinite(state.newton_change_mm) || !state.displacement.allFinite()) break;
+    converged = end.reached(state.newton_change_mm,
+                            gap_rounding_mm(n, surface.inner_radius_mm(),
+                                            problem.m.diagonal().maxCoeff() * state.force_n.sum()));
+    if (converged) break;
   }
-  if (!(state.newton_change_mm < options.tolerance_mm)) {
-    return Failure{Status::not_converged,
-                   fmt::format("assembly on the wave generator did not converge: the gap still changes by {:.3g} mm "
-                               "after {} Newton steps",
-                               state.newton_change_mm, state.newton_steps)};
+  if (!converged) {
+    return Failure{Status::not_converged, describe_divergence("assembly on the wave generator", state.newton_change_mm,
+                                                              state.newton_steps)};
   }
   // The normals have just been measured again; the matrix handed on belongs to them.
   state.compliance = ring.wall_wall(state.stations, state.normal);
@@ -118,7 +136,9 @@ AssembledState hold_at_lines(const RingCompliance& ring, double angle_rad, doubl
     }
   }
   const Eigen::MatrixXd held = state.hold * state.compliance * state.hold.transpose();
-  const Eigen::VectorXd reaction = held.llt().solve(Eigen::VectorXd::Constant(held.rows(), displacement_mm));
+  const Eigen::LLT<Eigen::MatrixXd> factor(held);
+  if (factor.info() != Eigen::Success) throw NotPositiveDefinite(0, held.diagonal().minCoeff());
+  const Eigen::VectorXd reaction = factor.solve(Eigen::VectorXd::Constant(held.rows(), displacement_mm));
   state.force_n = state.hold.transpose() * reaction;
   state.displacement =
       ring.wall_displacement(state.stations, state.stations, state.force_components(), {}, Eigen::VectorXd());

@@ -14,6 +14,8 @@
 #include "model/contact/wave_generator_surface.hpp"
 #include "model/gear/outcome.hpp"
 
+#include <limits>
+#include <string>
 #include <vector>
 
 namespace strainwave {
@@ -41,7 +43,7 @@ struct AssembledState {
 };
 
 struct AssemblyOptions {
-  double tolerance_mm = 1e-12;
+  double tolerance_mm = 1e-12; ///< where rounding allows
   int max_newton_steps = 40;
 };
 
@@ -51,6 +53,29 @@ Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGenerator
 /// Four radial forces have no surface: the wall is held, both ways, at the lines φ = ±angle (and opposite) along the rows,
 /// with the given radial displacement there. Held points between two stations use linear weights.
 AssembledState hold_at_lines(const RingCompliance& ring, double angle_rad, double displacement_mm, double phase);
+
+/// What rounding leaves of a gap, mm: the bound 4 n ε (R + G Σ|F|) with n unknowns, wall radius R and G the largest unit
+/// response, so that no displacement is larger than G Σ|F|. A Cholesky solve leaves (3n + 1) ε of that in the gaps of the
+/// closed points (Higham, Accuracy and Stability of Numerical Algorithms, 2002, theorem 10.4), summing the displacements n ε.
+double gap_rounding_mm(Eigen::Index unknowns, double radius_mm, double largest_displacement_mm);
+
+/// Says when Newton steps around the LCP are done: the change is below the tolerance, or below rounding and no longer halved.
+class NewtonEnd {
+public:
+  explicit NewtonEnd(double tolerance_mm) : tolerance_(tolerance_mm) {}
+  bool reached(double change_mm, double rounding_mm) {
+    const bool stalled = !(change_mm < 0.5 * previous_);
+    previous_ = change_mm;
+    return change_mm < tolerance_ || (stalled && change_mm < rounding_mm);
+  }
+
+private:
+  double tolerance_;
+  double previous_ = std::numeric_limits<double>::infinity();
+};
+
+/// "… did not converge: …", with the last change of the gap.
+std::string describe_divergence(const char* what, double change_mm, int steps);
 
 /// Resultants (major axis, minor axis) of wall forces over the lobe around φ = 0, N.
 Eigen::Vector2d wall_resultant(const std::vector<WallStation>& stations, const Eigen::MatrixX2d& force_components);

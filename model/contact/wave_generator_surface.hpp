@@ -44,6 +44,7 @@ public:
 
   /// Gap at the wall point of material angle φ and axial position z, displaced by w (outwards) and v (towards larger φ).
   WallGap gap(double phi_rad, double z_mm, double w_mm, double v_mm) const;
+  double inner_radius_mm() const { return inner_radius_; } ///< of the undeformed wall
 
 private:
   WallGap disc_gap(double phi, double z, double w, double v) const;

@@ -1,9 +1,11 @@
 #include "model/flexspline/responses.hpp"
 
 #include "model/flexspline/cyclic.hpp"
+#include "model/flexspline/sparse.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
@@ -31,6 +33,13 @@ std::optional<Failure> flaw(const ResponseRequest& r) {
   const auto no = [](std::string message) { return Failure{Status::contradiction, std::move(message)}; };
   if (r.teeth && r.flank_heights < 2)
     return no(fmt::format("flank_heights = {}: at least 2 hats cover a flank", r.flank_heights));
+  if (r.teeth && r.flank_heights > 2 * r.mesh.tooth_height + 1)
+    return no(
+        fmt::format("{} hats on a flank need mesh.tooth_height = {} at least (there are {} rows of nodes)",
+                    r.flank_heights, (r.flank_heights) / 2, 2 * r.mesh.tooth_height + 1));
+  if (r.teeth && r.face_slices > 2 * r.mesh.along_face + 1)
+    return no(fmt::format("{} hats across the face need mesh.along_face = {} at least", r.face_slices,
+                          r.face_slices / 2));
   if (r.teeth && r.face_slices < 1)
     return no(fmt::format("face_slices = {}: at least 1", r.face_slices));
   if (!(r.material.youngs_modulus_mpa > 0.0) ||
@@ -52,6 +61,32 @@ std::optional<Failure> flaw(const ResponseRequest& r) {
   return {};
 }
 
+/// Stiffness of thin walls falls with the cube of their thickness and that of a nearly incompressible material grows
+/// beyond bounds; double precision ends near a spread of 10^15. Names the number that spreads it most.
+Failure ill_conditioned(const ResponseRequest& r) {
+  const Flexspline& f = r.flexspline;
+  struct Suspect {
+    const char* name;
+    double value, spread;
+  };
+  const double radius = f.neutral_radius_mm;
+  const auto thin = [&](double length) { return std::pow(radius / length, 3); };
+  const Suspect suspects[] = {
+      {"material.poisson_ratio", r.material.poisson_ratio, 1.0 / (1.0 - 2.0 * r.material.poisson_ratio)},
+      {"flexspline.rim_thickness_mm", f.rim_thickness_mm, thin(f.rim_thickness_mm)},
+      {"flexspline.wall_thickness_mm", f.wall_thickness_mm, thin(f.wall_thickness_mm)},
+      {"flexspline.diaphragm_thickness_mm", f.diaphragm_thickness_mm, thin(f.diaphragm_thickness_mm)},
+      {"flexspline.boss_radius_mm", f.boss_radius_mm, thin(f.boss_radius_mm)},
+      {"flexspline.face_width_mm", f.face_width_mm, thin(f.face_width_mm)},
+      {"flexspline.cup_length_mm", f.cup_length_mm, std::pow(f.cup_length_mm / radius, 3)}};
+  const Suspect& worst = *std::max_element(std::begin(suspects), std::end(suspects),
+                                           [](const Suspect& a, const Suspect& b) { return a.spread < b.spread; });
+  return {Status::ill_conditioned,
+          fmt::format("the flexspline's finite elements cannot be solved in double precision: the stiffness is not positive "
+                      "definite to rounding; most likely {} {} is too extreme for a cup of neutral_radius_mm {}",
+                      worst.name, worst.value, radius)};
+}
+
 /// Half width of the wall hats in z.
 Hat row_hat(const ResponseRequest& r, double z) {
   const double half = r.flexspline.rim_thickness_mm;
@@ -62,9 +97,11 @@ void add_sections(const ResponseRequest& r, const SectorMesh& mesh, ResponseFunc
   const Flexspline& f = r.flexspline;
   const double inner = f.neutral_radius_mm - f.rim_thickness_mm / 2.0;
   for (const double z : result.layout.section_z_mm) {
-    const bool behind = z < face_range(f).rear;
-    const double thickness = r.teeth && !behind ? f.root_radius_mm - inner : f.wall_thickness_mm;
-    const double neutral = r.teeth && !behind ? f.neutral_radius_mm : inner + thickness / 2.0;
+    // Behind the face the wall; in the step between them (mesh.hpp) whichever is thinner.
+    const double rear = face_range(f).rear, wall = f.wall_thickness_mm;
+    const double rim = r.teeth ? f.root_radius_mm - inner : wall, step = std::fabs(rim - wall);
+    const double thickness = z >= rear ? rim : z > rear - step ? std::min(rim, wall) : wall;
+    const double neutral = r.teeth && z >= rear ? f.neutral_radius_mm : inner + thickness / 2.0;
     const PointFunctionals at_neutral = point_functionals(mesh, {neutral, 0.0, z});
     const PointFunctionals at_inner = point_functionals(mesh, {inner, 0.0, z});
     const PointFunctionals at_outer = point_functionals(mesh, {inner + thickness, 0.0, z});
@@ -111,7 +148,7 @@ ResponseFunctionals response_functionals(const ResponseRequest& r, const SectorM
       r.wall_z_mm.empty() ? equidistant(face.rear, face.front, r.mesh.along_face + 1) : r.wall_z_mm;
   if (r.sections)
     layout.section_z_mm = r.section_z_mm.empty() ? layout.wall_z_mm : r.section_z_mm;
-  const auto add = [&](DirectionPair pair) {
+  const auto add = [&](DirectionPair&& pair) {
     result.functionals.push_back(std::move(pair.circumferential));
     result.functionals.push_back(std::move(pair.radial));
   };
@@ -124,7 +161,10 @@ ResponseFunctionals response_functionals(const ResponseRequest& r, const SectorM
       for (int slice = 0; slice < r.face_slices; ++slice) {
         const Hat across = r.face_slices == 1 ? Hat{.constant = true}
                                               : equidistant_hat(face.rear, face.front, r.face_slices, slice);
-        add(flank_hat(mesh, equidistant_hat(root, tip, r.flank_heights, height), across));
+        DirectionPair hat = flank_hat(mesh, equidistant_hat(root, tip, r.flank_heights, height), across);
+        if (slice == 0)
+          layout.flank_centre_mm.push_back(moment_about_axis(mesh, hat.circumferential));
+        add(std::move(hat));
       }
   }
   for (const double offset : layout.wall_offset)
@@ -143,7 +183,13 @@ Outcome<UnitResponses> unit_responses(const ResponseRequest& request, int thread
     if (!mesh)
       return mesh.failure();
     ResponseFunctionals plan = response_functionals(request, *mesh);
-    plan.layout.data = cyclic_responses(*mesh, request.material, plan.functionals, threads);
+    try {
+      plan.layout.data = cyclic_responses(*mesh, request.material, plan.functionals, threads);
+    } catch (const NotPositiveStiffness&) {
+      return ill_conditioned(request);
+    }
+    if (!std::all_of(plan.layout.data.begin(), plan.layout.data.end(), [](double g) { return std::isfinite(g); }))
+      return ill_conditioned(request);
     return std::move(plan.layout);
   };
   Outcome<UnitResponses> fine = solve(request.mesh);

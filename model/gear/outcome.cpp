@@ -12,6 +12,7 @@ std::string_view status_name(Status status) {
   case Status::no_overlap: return "no_overlap";
   case Status::no_contact: return "no_contact";
   case Status::not_available: return "not_available";
+  case Status::ill_conditioned: return "ill_conditioned";
   case Status::not_converged: return "not_converged";
   case Status::certificate_failed: return "certificate_failed";
   }

@@ -19,6 +19,7 @@ enum class Status {
   no_overlap,             ///< the flanks of no tooth reach each other
   no_contact,             ///< no tooth touches up to the given rotation
   not_available,          ///< this fidelity cannot treat this wave generator
+  ill_conditioned,        ///< numbers so extreme that double precision cannot solve the equations
   not_converged,          ///< an iteration ended without a solution
   certificate_failed      ///< a result was found, but its residuals are too large
 };

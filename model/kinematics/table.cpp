@@ -1,19 +1,53 @@
 #include "model/kinematics/table.hpp"
 
+#include "model/gear/fields.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 namespace strainwave {
 namespace {
 
+constexpr std::size_t most_rows = 100000; ///< one per 0.001 degrees, ten times as many as make sense
+
+[[noreturn]] void fail(const std::string& what) {
+  throw FieldError("wave_generator.table_file", what);
+}
 [[noreturn]] void fail(const std::string& file, int line, const std::string& what) {
-  throw std::runtime_error(fmt::format("{}:{}: {}", file, line, what));
+  fail(fmt::format("{}:{}: {}", file, line, what));
+}
+
+/// A word of the file for a message: short, and without what a terminal would obey.
+std::string shown(const std::string& word) {
+  std::string safe;
+  for (const char c : word.substr(0, 30))
+    safe += c >= ' ' && c <= '~' ? c : '?';
+  return word.size() > 30 ? safe + "..." : safe;
+}
+
+std::ifstream open_table(const std::string& file) {
+  std::error_code ignored;
+  const std::filesystem::file_type type = std::filesystem::status(file, ignored).type();
+  if (type == std::filesystem::file_type::not_found)
+    fail(fmt::format("{}: there is no such file; expected a table of the wave generator's shape, two columns: "
+                     "angle in degrees, radial deformation in mm",
+                     file));
+  if (type == std::filesystem::file_type::directory)
+    fail(fmt::format("{}: is a folder, not a table of the wave generator's shape", file));
+  errno = 0;
+  std::ifstream stream(file);
+  if (!stream)
+    throw std::system_error(errno ? errno : EIO, std::generic_category(), "cannot read " + file);
+  return stream;
 }
 
 bool parse_number(const std::string& word, double& number) {
@@ -29,9 +63,7 @@ bool parse_number(const std::string& word, double& number) {
 } // namespace
 
 ShapeTable ShapeTable::read(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream)
-    throw std::runtime_error(fmt::format("{}:1: cannot open the table of the wave generator's shape", file));
+  std::ifstream stream = open_table(file);
   std::vector<double> angle_deg, u;
   std::string text;
   int line = 0;
@@ -46,11 +78,11 @@ ShapeTable ShapeTable::read(const std::string& file) {
     if (!(words >> second))
       fail(file, line, "expected two columns (angle in degrees, displacement in mm), found one");
     if (words >> rest)
-      fail(file, line, fmt::format("expected two columns, found a third: '{}'", rest));
+      fail(file, line, fmt::format("expected two columns, found a third: '{}'", shown(rest)));
     if (!parse_number(first, phi))
-      fail(file, line, fmt::format("'{}' is not a finite number", first));
+      fail(file, line, fmt::format("'{}' is not a finite number", shown(first)));
     if (!parse_number(second, value))
-      fail(file, line, fmt::format("'{}' is not a finite number", second));
+      fail(file, line, fmt::format("'{}' is not a finite number", shown(second)));
     if (angle_deg.empty() && phi != 0.0)
       fail(file, line, fmt::format("the first angle must be 0, not {}", phi));
     if (!angle_deg.empty() && phi <= angle_deg.back())
@@ -59,11 +91,13 @@ ShapeTable ShapeTable::read(const std::string& file) {
       fail(file, line,
            fmt::format("the last angle must be 90, not {}: the shape is even and repeats after 180 degrees",
                        phi));
+    if (angle_deg.size() == most_rows)
+      fail(file, line, fmt::format("more than {} rows", most_rows));
     angle_deg.push_back(phi);
     u.push_back(value);
   }
   if (stream.bad())
-    fail(file, line, "reading failed");
+    throw std::system_error(errno ? errno : EIO, std::generic_category(), "cannot read " + file);
   if (angle_deg.empty())
     fail(file, std::max(line, 1), "the table has no rows");
   if (angle_deg.back() != 90.0)

@@ -160,8 +160,6 @@ std::optional<Failure> find_in_cup(const Gear& gear) {
 std::optional<Failure> find_in_wave_generator(const Gear& gear) {
   const Flexspline& f = gear.flexspline;
   const double width = gear.wave_generator.contact_width_mm;
-  if (gear.wave_generator.shape == WaveGeneratorShape::four_force && width == 0.0)
-    return std::nullopt;
   if (!(width > 0.0))
     return contradiction("wave_generator.contact_width_mm {} is not a positive length", width);
   const double overhang = 0.5 * (width - f.face_width_mm);

@@ -1,5 +1,6 @@
 // Wave-generator shapes from a file: spline, place of an error.
 
+#include "model/gear/fields.hpp"
 #include "tests/model/kinematics/curves.hpp"
 
 #include <gtest/gtest.h>
@@ -30,8 +31,9 @@ protected:
   std::string complaint() {
     try {
       (void)curve();
-    } catch (const std::runtime_error& error) {
-      return error.what();
+    } catch (const FieldError& error) {
+      EXPECT_EQ(error.path, "wave_generator.table_file");
+      return error.sentence;
     }
     return "no complaint";
   }
@@ -104,7 +106,18 @@ TEST_F(ShapeTableTest, ErrorsNameFileAndLine) {
 TEST_F(ShapeTableTest, MissingFileIsNamed) {
   const std::string message = complaint();
   EXPECT_NE(message.find(file_.string()), std::string::npos);
-  EXPECT_NE(message.find("cannot open"), std::string::npos);
+  EXPECT_NE(message.find("there is no such file"), std::string::npos);
+}
+
+TEST_F(ShapeTableTest, FolderIsNoTable) {
+  std::filesystem::create_directory(file_);
+  EXPECT_EQ(complaint(), file_.string() + ": is a folder, not a table of the wave generator's shape");
+}
+
+TEST_F(ShapeTableTest, BytesThatAreNoTextAreNotEchoed) {
+  write(std::string("\x7f\x45LF\x02\x1b[31m\xff ") + std::string(500, 'x'));
+  const std::string message = complaint();
+  EXPECT_EQ(message, file_.string() + ":1: '?ELF??[31m?' is not a finite number");
 }
 
 TEST_F(ShapeTableTest, AbsurdDisplacementIsAContradiction) {
