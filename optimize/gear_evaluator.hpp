@@ -26,6 +26,8 @@ public:
 
   std::span<const Response> responses() const override { return gear_responses(); }
   Evaluation evaluate(std::span<const double> x) override;
+  /// peak_force_n: the forces of all teeth, tooth by tooth in every phase of every load.
+  std::optional<std::size_t> pieces_of() const override;
   /// The unmodified gear.
   Evaluation evaluate_base() { return evaluate_gear(base_); }
 

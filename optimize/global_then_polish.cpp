@@ -1,5 +1,6 @@
 #include "optimize/global_then_polish.hpp"
 
+#include "optimize/ipopt_search.hpp"
 #include "optimize/nlopt_search.hpp"
 #include "optimize/parallel.hpp"
 #include "optimize/start_points.hpp"
@@ -58,6 +59,22 @@ SearchResult survey(const Problem& problem, const OptimiseSettings& settings, st
   return all;
 }
 
+/// Down from one point.
+SearchResult polish(const Problem& problem, const Point& from, const SearchSettings& settings,
+                    std::size_t budget, Monitor& monitor) {
+  SearchResult found;
+  if (ipopt_available()) {
+    SearchSettings share = settings;
+    share.budget = budget / 2;
+    found = search_ipopt(problem, from.y, share, monitor);
+  }
+  if (!found.best || better(from, *found.best))
+    found.best = from;
+  if (found.end != SearchEnd::stopped)
+    (void)confirm(problem, found, settings, budget - found.asked, monitor);
+  return found;
+}
+
 } // namespace
 
 std::vector<Point> best_apart(const Problem& problem, std::vector<Point> points, std::size_t count,
@@ -97,8 +114,7 @@ SearchResult global_then_polish(const Problem& problem, const OptimiseSettings& 
   std::vector<SearchResult> polished(valleys.size());
   const std::size_t share = (budget - found.asked) / valleys.size();
   parallel_for(valleys.size(), settings.threads, [&](std::size_t k) {
-    polished[k].best = valleys[k];
-    (void)confirm(problem, polished[k], settings.search, share, monitor);
+    polished[k] = polish(problem, valleys[k], settings.search, share, monitor);
   });
   for (SearchResult& result : polished)
     add(found, std::move(result));

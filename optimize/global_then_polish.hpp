@@ -3,7 +3,7 @@
 // carry load):
 //
 //     survey: DIRECT-L, ISRES and points spread evenly, side by side      → the best points that lie apart
-//     polish: from each of them a simplex and gradient sampling (verdict.hpp, descent.hpp)  → the best of all
+//     polish: from each of them Ipopt's epigraph, a simplex, gradient sampling   → the best of all
 //
 // Shares of the budget are fixed beforehand and every part runs on its own, so the result does not depend on
 // the number of threads.

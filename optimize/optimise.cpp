@@ -1,6 +1,7 @@
 #include "optimize/optimise.hpp"
 
 #include "optimize/global_then_polish.hpp"
+#include "optimize/ipopt_search.hpp"
 #include "optimize/nlopt_search.hpp"
 #include "optimize/parallel.hpp"
 #include "optimize/start_points.hpp"
@@ -17,8 +18,10 @@ SearchResult multi_start(const Problem& problem, const OptimiseSettings& setting
   share.budget = std::max<std::size_t>(1, settings.search.budget / starts);
   const auto points = start_points(problem.design(), starts, settings.search.seed);
   std::vector<SearchResult> results(starts);
-  parallel_for(starts, settings.threads,
-               [&](std::size_t k) { results[k] = search_nlopt(problem, points[k], share, monitor); });
+  parallel_for(starts, settings.threads, [&](std::size_t k) {
+    results[k] = settings.search.method == ipopt_method ? search_ipopt(problem, points[k], share, monitor)
+                                                        : search_nlopt(problem, points[k], share, monitor);
+  });
 
   SearchResult found = results.front();
   bool stopped = found.end == SearchEnd::stopped;
@@ -44,6 +47,8 @@ std::span<const std::string_view> method_names() {
     std::vector<std::string_view> all{global_method};
     const auto nlopt = nlopt_method_names();
     all.insert(all.end(), nlopt.begin(), nlopt.end());
+    if (ipopt_available())
+      all.push_back(ipopt_method);
     return all;
   }();
   return names;

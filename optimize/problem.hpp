@@ -73,6 +73,7 @@ public:
   std::span<const Limit> limits() const { return limits_; }
   std::size_t objective_response() const { return objective_; }
   bool maximise() const { return maximise_; }
+  double objective_scale() const { return objective_scale_; }
 
   /// Thread-safe. A value that is not finite counts as a failed evaluation.
   Point at(std::span<const double> y) const;

@@ -6,13 +6,15 @@
 
 namespace strainwave {
 
-Point Recorder::evaluate(std::span<const double> y) {
+Point Recorder::evaluate(std::span<const double> y, Evaluation* whole) {
   if (monitor_.stop_requested())
     throw Ended{SearchEnd::stopped};
   if (result_.asked >= budget_)
     throw Ended{SearchEnd::budget};
   const Evaluation evaluation = problem_.evaluator().evaluate(problem_.design().unscaled(y));
   Point point = problem_.read(y, evaluation);
+  if (whole)
+    *whole = evaluation;
   ++result_.asked;
   monitor_.note(problem_, point);
   if (!point.ok) {

@@ -70,7 +70,7 @@ public:
   /// With first derivatives. Where they are not to be had, those of the last point that had some.
   const Told& ask_slopes(std::span<const double> y);
   /// The point itself, whatever became of it; for those who can deal with failed ones.
-  Point evaluate(std::span<const double> y);
+  Point evaluate(std::span<const double> y, Evaluation* whole = nullptr);
   const SearchResult& result() const { return result_; }
 
 private:

@@ -6,8 +6,6 @@ namespace strainwave {
 
 namespace {
 
-constexpr double difference_step = 1e-5;
-
 void set_column(Slopes& slopes, std::size_t i, const Point& low, const Point& high, double width) {
   const std::size_t n = slopes.objective.size();
   slopes.objective[i] = (high.objective - low.objective) / width;

@@ -15,7 +15,7 @@ Gear coarse_gear() {
                .along_face = 4,
                .along_wall = 5,
                .diaphragm = 3,
-               .tooth_height = 1,
+               .tooth_height = 2,
                .through_thickness = 1};
   return gear;
 }
