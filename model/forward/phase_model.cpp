@@ -71,8 +71,8 @@ Outcome<PhaseLoad> PhaseModel::finish(const ContactState& start, Control control
   } else if (contact_.disc_gap == DiscGap::linearised) {
     result.certificate = certify(load_.problem, start);
     const Eigen::VectorXd wall = start.force.tail(assembled_->force_n.size());
-    result.disc_force_n =
-        wall_resultant(assembled_->stations, assembled_->normal.array().colwise() * wall.array())(0);
+    result.wall_force = assembled_->normal.array().colwise() * wall.array();
+    result.disc_force_n = wall_resultant(assembled_->stations, result.wall_force)(0);
   } else {
     auto corrected = correct_to_exact_gap(ring_, surface_, *assembled_, load_, start, control, solver);
     if (!corrected) return corrected.failure();
@@ -82,6 +82,7 @@ Outcome<PhaseLoad> PhaseModel::finish(const ContactState& start, Control control
     result.exact_gap_residual_um = 1e3 * exact->residual_mm;
     result.gap_correction_rotation_rad = exact->correction_rotation_rad;
     result.gap_correction_force_n = exact->correction_force_n;
+    result.wall_force = exact->wall_force;
     result.disc_force_n = wall_resultant(assembled_->stations, exact->wall_force)(0);
   }
   result.recomputed_gap_um = 1e3 * recomputed_gap_error(*state, exact ? &exact->wall_force : nullptr);
