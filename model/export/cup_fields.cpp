@@ -58,7 +58,7 @@ Outcome<CupFields> cup_fields(const ContactStates& states) {
           {&functionals[static_cast<std::size_t>(force.functional)], force.sector, force.force_n});
   }
   result.field = ring_field(result.mesh, request.material, cases);
-  result.von_mises_mpa = middle_von_mises(result.mesh, request.material, result.field.displacement);
+  result.von_mises_mpa = largest_von_mises(result.mesh, request.material, result.field.displacement);
   for (std::size_t c = 0; c < states.states.size(); ++c)
     result.contact_difference_mm =
         std::max(result.contact_difference_mm,

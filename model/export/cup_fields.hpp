@@ -17,7 +17,7 @@ struct CupFields {
   SectorMesh mesh;
   std::vector<std::string> names; ///< of the states; columns of the fields
   RingField field;
-  Eigen::MatrixXd von_mises_mpa; ///< in the middle of every element
+  Eigen::MatrixXd von_mises_mpa; ///< largest in every element
   /// Wall displacement measured on the field against the contact analysis', largest over all states, mm.
   double contact_difference_mm = 0.0;
 };

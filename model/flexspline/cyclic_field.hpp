@@ -44,9 +44,10 @@ struct RingField {
 RingField ring_field(const SectorMesh& mesh, const Material& material,
                      const std::vector<std::vector<RingLoad>>& cases);
 
-/// Von Mises stress in the middle of every element of the ring, MPa: rows sector·(elements of a sector) +
-/// element.
-Eigen::MatrixXd middle_von_mises(const SectorMesh& mesh, const Material& material,
-                                 const Eigen::MatrixXd& displacement);
+/// Largest von Mises stress of every element of the ring, MPa: rows sector·(elements of a sector) + element.
+/// Stresses are taken at the 2 × 2 × 2 integration points, where they are most accurate, and carried on to
+/// the corners trilinearly, so that bending of a wall one element thick shows its surface value.
+Eigen::MatrixXd largest_von_mises(const SectorMesh& mesh, const Material& material,
+                                  const Eigen::MatrixXd& displacement);
 
 } // namespace strainwave
