@@ -44,15 +44,18 @@ std::string curve(std::size_t index, const char* point = "7") {
                      figure_colour(index), point);
 }
 
-/// Teeth from `margin` before the first to `margin` behind the last that carries load, over all loads.
+/// From `margin` pitches before the first tooth that carries load to as many behind the last, over all loads.
 struct AngleRange {
   double lo = std::numeric_limits<double>::infinity(), hi = -lo;
 };
-AngleRange engaged_range(const ForwardResult& result, double margin_deg) {
+AngleRange engaged_range(const ForwardResult& result, double margin) {
   AngleRange range;
+  double margin_deg = 0.0;
   for (const LoadResult& load : result.load) {
     if (load.engaged_count == 0)
       continue;
+    if (load.phi_deg.size() > 1)
+      margin_deg = margin * (load.phi_deg[1] - load.phi_deg[0]);
     range.lo = std::min(range.lo, load.engaged_lo_deg);
     range.hi = std::max(range.hi, load.engaged_hi_deg);
   }
@@ -133,7 +136,7 @@ std::vector<Figure> load_figures(const ForwardResult& result) {
     force_plot.add(k, "2:3", curve(k), load_label(load));
     gap_plot.add(gap_block++, "2:3", curve(k), load_label(load));
   }
-  const AngleRange near = engaged_range(result, 2.0), wide = engaged_range(result, 15.0);
+  const AngleRange near = engaged_range(result, 1.0), wide = engaged_range(result, 6.0);
   forces.drawing = fmt::format("set xlabel '{}'\nset ylabel 'meshing force of a tooth [N]'\n"
                                "set xrange [{}:{}]\nset yrange [0:*]\nset xtics 5\n{}",
                                angle_label, number(near.lo), number(near.hi), force_plot.command());

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <system_error>
 
 namespace strainwave {
@@ -12,40 +13,28 @@ void cannot_write(const std::filesystem::path& path, int error) {
                           fmt::format("cannot write {}", path.string()));
 }
 
-ReplacedFile::ReplacedFile(std::filesystem::path path)
-    : target(std::move(path)), beside(target.string() + ".part") {
-  if (std::filesystem::is_directory(target))
-    cannot_write(target, EISDIR);
+void replace_file(const std::filesystem::path& path, std::string_view text) {
+  if (std::filesystem::is_directory(path))
+    cannot_write(path, EISDIR);
+  const std::filesystem::path beside = path.string() + ".part";
   errno = 0;
-  out.open(beside, std::ios::binary | std::ios::trunc);
-  if (!out)
-    cannot_write(target, errno);
-}
-
-ReplacedFile::~ReplacedFile() {
-  if (!out.is_open())
+  std::FILE* file = std::fopen(beside.c_str(), "wb");
+  if (file == nullptr)
+    cannot_write(path, errno);
+  bool whole = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  int error = errno;
+  if (std::fclose(file) != 0 && whole) {
+    whole = false;
+    error = errno;
+  }
+  std::error_code renamed;
+  if (whole)
+    std::filesystem::rename(beside, path, renamed);
+  if (whole && !renamed)
     return;
-  out.close();
   std::error_code ignored;
   std::filesystem::remove(beside, ignored);
-}
-
-void ReplacedFile::commit() {
-  errno = 0;
-  out.flush();
-  if (!out)
-    cannot_write(target, errno);
-  out.close();
-  std::error_code error;
-  std::filesystem::rename(beside, target, error);
-  if (error)
-    cannot_write(target, error.value());
-}
-
-void replace_file(const std::filesystem::path& path, std::string_view text) {
-  ReplacedFile file(path);
-  file.stream() << text;
-  file.commit();
+  cannot_write(path, whole ? renamed.value() : error);
 }
 
 } // namespace strainwave

@@ -107,47 +107,58 @@ public:
     across = planes.topRightCorner(n, n);
   }
 
-  /// Displacements of one case from nodal forces, rows 3·ring_index + component, a column for each sector.
+  /// Displacements from nodal forces, rows 3·ring_index + component; a block of a column for each sector and
+  /// each case.
   MatrixXd solve(const MatrixXd& force) const {
-    const Index n = order.plane;
-    const MatrixXd here = factor->solve(force(order.inside_row, Eigen::all));
-    const MatrixXd left = z.leftCols(n).transpose() * force(order.inside_row, Eigen::all);
-    const MatrixXd right = z.rightCols(n).transpose() * force(order.inside_row, Eigen::all);
-    MatrixXd load = force(order.plane_row, Eigen::all) - left;
-    for (Index j = 0; j < sectors; ++j)
-      load.col((j + 1) % sectors) -= right.col(j);
+    const Index n = order.plane, columns = force.cols();
+    const MatrixXd inside = force(order.inside_row, Eigen::all);
+    const MatrixXd right = z.rightCols(n).transpose() * inside;
+    MatrixXd load = force(order.plane_row, Eigen::all);
+    load.noalias() -= z.leftCols(n).transpose() * inside;
+    for (Index j = 0; j < columns; ++j)
+      load.col(next_sector(j)) -= right.col(j);
     const MatrixXd plane = solve_planes(load);
-    MatrixXd ahead(n, sectors);
-    for (Index j = 0; j < sectors; ++j)
-      ahead.col(j) = plane.col((j + 1) % sectors);
-    MatrixXd displacement = MatrixXd::Zero(force.rows(), sectors);
+    MatrixXd ahead(n, columns);
+    for (Index j = 0; j < columns; ++j)
+      ahead.col(j) = plane.col(next_sector(j));
+    MatrixXd here = factor->solve(inside);
+    here.noalias() -= z.leftCols(n) * plane;
+    here.noalias() -= z.rightCols(n) * ahead;
+    MatrixXd displacement = MatrixXd::Zero(force.rows(), columns);
     displacement(order.plane_row, Eigen::all) = plane;
-    displacement(order.inside_row, Eigen::all) = here - z.leftCols(n) * plane - z.rightCols(n) * ahead;
+    displacement(order.inside_row, Eigen::all) = here;
     return displacement;
   }
 
 private:
+  /// Column of the same case's next sector.
+  Index next_sector(Index column) const {
+    return column % sectors == sectors - 1 ? column - sectors + 1 : column + 1;
+  }
+
   MatrixXd solve_planes(const MatrixXd& load) const {
-    const Index harmonics = sectors / 2 + 1;
-    const auto wave = [&](Index h, Index j) {
-      const double angle = 2.0 * std::numbers::pi * static_cast<double>((h * j) % sectors) / sectors;
-      return std::complex<double>(std::cos(angle), std::sin(angle));
-    };
-    MatrixXd plane = MatrixXd::Zero(order.plane, sectors);
+    const Index harmonics = sectors / 2 + 1, cases = load.cols() / sectors;
+    MatrixXd plane = MatrixXd::Zero(order.plane, load.cols());
     for (Index h = 0; h < harmonics; ++h) {
-      const std::complex<double> turn = wave(h, 1);
+      Eigen::VectorXcd wave(sectors); // e^{i h j 2π/N}
+      for (Index j = 0; j < sectors; ++j)
+        wave(j) = std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>((h * j) % sectors) /
+                                      static_cast<double>(sectors));
+      const std::complex<double> turn = wave(1 % sectors);
       const MatrixXcd stiffness =
           own.cast<std::complex<double>>() + turn * across + std::conj(turn) * across.transpose();
-      Eigen::VectorXcd waves(sectors);
-      for (Index j = 0; j < sectors; ++j)
-        waves(j) = wave(h, j);
       const Eigen::LLT<MatrixXcd> harmonic(stiffness);
       if (harmonic.info() != Eigen::Success)
         throw std::logic_error("a harmonic of the ring is not positive definite");
-      const Eigen::VectorXcd amplitude = harmonic.solve(load * waves.conjugate());
-      const double share = (h == 0 || 2 * h == sectors ? 1.0 : 2.0) / sectors;
-      plane.noalias() +=
-          share * (amplitude.real() * waves.real().transpose() - amplitude.imag() * waves.imag().transpose());
+      MatrixXcd amplitude(order.plane, cases);
+      for (Index c = 0; c < cases; ++c)
+        amplitude.col(c) = load.middleCols(c * sectors, sectors) * wave.conjugate();
+      harmonic.solveInPlace(amplitude);
+      const double share = (h == 0 || 2 * h == sectors ? 1.0 : 2.0) / static_cast<double>(sectors);
+      for (Index c = 0; c < cases; ++c)
+        plane.middleCols(c * sectors, sectors).noalias() +=
+            share * (amplitude.col(c).real() * wave.real().transpose() -
+                     amplitude.col(c).imag() * wave.imag().transpose());
     }
     return plane;
   }
@@ -170,24 +181,24 @@ Eigen::Matrix<double, 60, 1> element_displacement(const SectorMesh& mesh, std::s
 
 double residual_of(const SectorMesh& mesh, const std::vector<ElementStiffness>& stiffness,
                    const RingField& field) {
+  MatrixXd rest = -field.force;
+  Eigen::Matrix<double, 60, Eigen::Dynamic> local(60, rest.cols()), nodal(60, rest.cols());
+  for (int j = 0; j < mesh.sectors; ++j)
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+      for (Index c = 0; c < rest.cols(); ++c)
+        local.col(c) = element_displacement(mesh, e, j, field.displacement.col(c));
+      nodal.noalias() = stiffness[e] * local;
+      for (std::size_t a = 0; a < 20; ++a)
+        rest.middleRows<3>(3 * static_cast<Index>(mesh.ring_node(mesh.elements[e][a], j))) +=
+            nodal.middleRows<3>(3 * static_cast<Index>(a));
+    }
+  for (int j = 0; j < mesh.sectors; ++j)
+    for (const int dof : mesh.fixed)
+      rest.row(3 * mesh.ring_node(dof / 3, j) + dof % 3).setZero();
   double worst = 0.0;
-  for (Index c = 0; c < field.force.cols(); ++c) {
-    VectorXd rest = -field.force.col(c);
-    for (int j = 0; j < mesh.sectors; ++j)
-      for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-        const Eigen::Matrix<double, 60, 1> nodal =
-            stiffness[e] * element_displacement(mesh, e, j, field.displacement.col(c));
-        for (std::size_t a = 0; a < 20; ++a)
-          rest.segment<3>(3 * static_cast<Index>(mesh.ring_node(mesh.elements[e][a], j))) +=
-              nodal.segment<3>(3 * static_cast<Index>(a));
-      }
-    for (int j = 0; j < mesh.sectors; ++j)
-      for (const int dof : mesh.fixed)
-        rest[3 * mesh.ring_node(dof / 3, j) + dof % 3] = 0.0;
-    const double scale = field.force.col(c).cwiseAbs().maxCoeff();
-    if (scale > 0.0)
-      worst = std::max(worst, rest.cwiseAbs().maxCoeff() / scale);
-  }
+  for (Index c = 0; c < rest.cols(); ++c)
+    if (const double scale = field.force.col(c).cwiseAbs().maxCoeff(); scale > 0.0)
+      worst = std::max(worst, rest.col(c).cwiseAbs().maxCoeff() / scale);
   return worst;
 }
 
@@ -205,7 +216,6 @@ RingField ring_field(const SectorMesh& mesh, const Material& material,
   const auto rows = 3 * static_cast<Index>(mesh.ring_nodes());
   RingField field;
   field.force = MatrixXd::Zero(rows, static_cast<Index>(cases.size()));
-  field.displacement.resize(rows, static_cast<Index>(cases.size()));
   for (std::size_t c = 0; c < cases.size(); ++c) {
     auto force = field.force.col(static_cast<Index>(c));
     const auto add = [&](const SectorWeights& weights, int sector, double factor) {
@@ -217,9 +227,11 @@ RingField ring_field(const SectorMesh& mesh, const Material& material,
       add(load.functional->here, load.sector, load.factor);
       add(load.functional->next, (load.sector + 1) % mesh.sectors, load.factor);
     }
-    const Eigen::Map<const MatrixXd> by_sector(force.data(), 3 * mesh.owned(), mesh.sectors);
-    field.displacement.col(static_cast<Index>(c)) = planes.solve(by_sector).reshaped();
   }
+  // Rows 3·ring_node + component of a case are, sector by sector, the columns of its block.
+  const Eigen::Map<const MatrixXd> by_sector(field.force.data(), 3 * mesh.owned(),
+                                             static_cast<Index>(mesh.sectors) * field.force.cols());
+  field.displacement = planes.solve(by_sector).reshaped(rows, field.force.cols());
   field.residual = residual_of(mesh, stiffness, field);
   return field;
 }
