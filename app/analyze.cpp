@@ -40,6 +40,7 @@ void draw_figures(const ForwardResult& result, Gear gear, Want want, ForwardMode
     gear.load.phases = 1;
     figures.push_back(torque_rotation_figure(result, model.analyze(gear)));
   }
+  if (figures.empty()) return;
   if (const Drawn drawn = draw(figures, folder); !drawn.complete) report(drawn.note);
 }
 

@@ -47,18 +47,10 @@ std::string deck_text(const Gear& gear, const Cup& cup, const std::vector<std::v
   return std::move(out).str();
 }
 
-ResponseRequest request_of(const Gear& gear) {
-  ResponseRequest request;
-  request.flexspline = gear.flexspline;
-  request.material = gear.material;
-  request.mesh = gear.mesh;
-  return request;
-}
-
 } // namespace
 
 Outcome<std::string> calculix_deck(const Gear& gear, const UnitToothLoad& load) {
-  const auto cup = cup_of(request_of(gear));
+  const auto cup = cup_of(response_request(gear));
   if (!cup)
     return cup.failure();
   const UnitResponses& layout = cup->plan.layout;

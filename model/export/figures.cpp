@@ -16,6 +16,7 @@ constexpr double degree = std::numbers::pi / 180.0;
 constexpr const char* angle_label = "material angle of the tooth from the major axis, φ [°]";
 
 std::string number(double value) {
+  value += 0.0; // no −0
   return std::isfinite(value) ? fmt::format("{:.9g}", value) : "nan";
 }
 

@@ -34,6 +34,14 @@ private:
 
 } // namespace
 
+ResponseRequest response_request(const Gear& gear) {
+  ResponseRequest request;
+  request.flexspline = gear.flexspline;
+  request.material = gear.material;
+  request.mesh = gear.mesh;
+  return request;
+}
+
 ContactForces contact_forces(std::string name, const RingCompliance& ring, const AssembledState& assembled,
                              const Eigen::MatrixX2d& wall_force, const std::vector<LoadedTooth>& teeth,
                              const std::vector<double>& tooth_force) {

@@ -14,6 +14,9 @@
 
 namespace strainwave {
 
+/// What the flexspline stage is asked for a gear: the same cup, mesh and functionals everywhere.
+ResponseRequest response_request(const Gear& gear);
+
 /// N along functional `functional` (its place in UnitResponses) of sector 0 … sectors − 1.
 struct FunctionalForce {
   int sector = 0;

@@ -85,14 +85,6 @@ std::optional<Failure> find_unavailable(const Gear& gear, Want want) {
   return std::nullopt;
 }
 
-ResponseRequest response_request(const Gear& gear) {
-  ResponseRequest request;
-  request.flexspline = gear.flexspline;
-  request.material = gear.material;
-  request.mesh = gear.mesh;
-  return request;
-}
-
 /// The ring keeps the responses that it refers to alive.
 struct Ring {
   std::shared_ptr<const UnitResponses> responses;
