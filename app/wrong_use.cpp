@@ -3,7 +3,10 @@
 #include "model/gear/nearest.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <regex>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -56,6 +59,33 @@ std::string unknown(std::string_view what, const std::string& word, const std::v
                      list);
 }
 
+/// CLI11's own words for a wrong value, said again in ours.
+std::string value_sentence(const std::string& words) {
+  std::smatch found;
+  const auto is = [&](const char* pattern) { return std::regex_match(words, found, std::regex(pattern)); };
+  if (is("Could not convert: (.*) = (.*)"))
+    return fmt::format("{}: expected a number, got {}", found[1].str(), found[2].str());
+  if (is("(.*): .* required .* missing"))
+    return fmt::format("{}: the value is missing", found[1].str());
+  if (is("(.*): Value (.*) not in range (-?\\d+)\\.\\d* to (-?\\d+)\\.\\d*")) {
+    const std::string upper = found[4].length() > 18 ? "" : " and at most " + found[4].str();
+    return fmt::format("{}: expected a number of at least {}{}, got {}", found[1].str(), found[3].str(),
+                       upper, found[2].str());
+  }
+  if (is("(.*): (.*) not in \\{(.*)\\}")) {
+    std::vector<std::string> legal;
+    std::stringstream list(found[3].str());
+    for (std::string one; std::getline(list, one, ',');)
+      legal.push_back(one);
+    const std::vector<std::string_view> views(legal.begin(), legal.end());
+    const std::string wrong = found[2].str();
+    const Nearest nearest = nearest_name(wrong, views);
+    return fmt::format("{}: expected {}, got {}{}", found[1].str(), fmt::join(legal, ", "), wrong,
+                       nearest.close ? fmt::format("; did you mean {}?", nearest.name) : "");
+  }
+  return words;
+}
+
 std::string sentence_without_hint(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = innermost(app);
   const std::vector<std::string> commands = legal_commands(command);
@@ -75,7 +105,7 @@ std::string sentence_without_hint(const CLI::App& app, const CLI::ParseError& er
       list += (list.empty() ? "" : ", ") + name;
     return fmt::format("a command is missing; expected one of {}", list);
   }
-  return error.what();
+  return value_sentence(error.what());
 }
 
 } // namespace

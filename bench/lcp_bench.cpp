@@ -1,6 +1,7 @@
 // Contact solver: direct solves cold and warm, at a rotation and at a torque, and the whole event path.
 // "Cold": no closed set is known, M, q, r are in memory. Use --benchmark_repetitions and read the minimum.
 
+#include "model/contact/lcp_march.hpp"
 #include "model/contact/lcp_path.hpp"
 #include "tests/model/contact/lcp_problems.hpp"
 
@@ -41,8 +42,10 @@ Case make(const std::string& name) {
     c.problem = smooth(140);
     c.load_with(c.solver.solve_at(c.problem, 4e-3).torque);
   } else {
-    c.problem = seed_on_discs(read_json(folder + "/load-path.json"), read_json(folder + "/unit-responses.json"), c.solver);
-    c.load_with(3500.0);
+    const int lobes = name == "unilateral_two_lobes" ? 2 : 1;
+    c.problem = seed_on_discs(read_json(folder + "/load-path.json"),
+                              read_json(folder + "/unit-responses.json"), c.solver, lobes);
+    c.load_with(lobes * 3500.0);
   }
   return c;
 }
@@ -86,6 +89,24 @@ void path(benchmark::State& state, const std::string& name, PathRange range) {
   state.counters["N_m"] = 2e-3 * result.end_torque();
 }
 
+/// The source text's marching to the same torque; its error is the worst of the torque at the events of the
+/// exact path.
+void marching(benchmark::State& state, const std::string& name, double torque_nmm, double step,
+              double least_step) {
+  Case c = make(name);
+  const EventPath exact = c.solver.trace(c.problem, {.end_torque = torque_nmm});
+  March result;
+  for (auto _ : state) {
+    result = march(c.problem, 0.0, exact.end_rotation(), {.step = step, .least_step = least_step}, c.solver);
+    benchmark::DoNotOptimize(result.tried);
+  }
+  double worst = 0.0;
+  for (const PathEvent& event : exact.events())
+    worst = std::max(worst, std::abs(result.torque_at(event.rotation) - event.torque));
+  state.counters["steps"] = result.tried;
+  state.counters["error_N_mm"] = worst;
+}
+
 BENCHMARK_CAPTURE(direct, linear_28_cold, "linear_28", false)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(direct, linear_28_warm, "linear_28", true)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(direct, linear_140_cold, "linear_140", false)->Unit(benchmark::kMicrosecond);
@@ -98,10 +119,24 @@ BENCHMARK_CAPTURE(at_torque, linear_140_cold, "linear_140", false)->Unit(benchma
 BENCHMARK_CAPTURE(at_torque, linear_140_warm, "linear_140", true)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(at_torque, unilateral_448_cold, "unilateral", false)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(at_torque, unilateral_448_warm, "unilateral", true)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(path, linear_28_to_7_Nm, "linear_28", PathRange{.end_torque = 3500.0})->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(path, linear_28_to_7_Nm, "linear_28", PathRange{.end_torque = 3500.0})
+    ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(path, linear_28_all_events, "linear_28", PathRange{})->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(path, linear_140_to_8_mrad, "linear_140", PathRange{.end_rotation = 8e-3})->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(path, unilateral_448_to_12_Nm, "unilateral", PathRange{.end_torque = 6000.0})->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(path, linear_140_to_8_mrad, "linear_140", PathRange{.end_rotation = 8e-3})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(path, unilateral_448_to_12_Nm, "unilateral", PathRange{.end_torque = 6000.0})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(path, unilateral_896_both_lobes_to_12_Nm, "unilateral_two_lobes",
+                  PathRange{.end_torque = 12000.0})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(marching, linear_28_to_7_Nm_coarse, "linear_28", 3500.0, 1e-4, 1e-6)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(marching, linear_28_to_7_Nm_fine, "linear_28", 3500.0, 1e-5, 1e-9)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(marching, unilateral_448_to_12_Nm_coarse, "unilateral", 6000.0, 1e-4, 1e-6)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(marching, unilateral_448_to_12_Nm_fine, "unilateral", 6000.0, 1e-5, 1e-9)
+    ->Unit(benchmark::kMicrosecond);
 
 } // namespace
 } // namespace strainwave

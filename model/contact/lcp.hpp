@@ -1,26 +1,29 @@
 #pragma once
-// Unilateral contact as a linear complementarity problem with one parameter, the rotation θ of the circular spline:
+// Unilateral contact as a linear complementarity problem with one parameter, the rotation θ of the circular
+// spline:
 //
 //     gap(θ) = q − θ r + M z ≥ 0,    z ≥ 0,    z_i gap_i = 0,    M symmetric positive definite
 //
-// Unknowns z [N] are tooth forces (r_i = contact radius, mm) and, with unilateral wall contact, wall forces (r_i = 0);
-// gaps q [mm], M [mm/N]. For every θ there is exactly one solution, it is piecewise linear in θ, and the torque r · z
-// never falls (strictly rises as soon as an index with r_i > 0 carries force).
+// Unknowns z [N] are tooth forces (r_i = contact radius, mm) and, with unilateral wall contact, wall forces
+// (r_i = 0); gaps q [mm], M [mm/N]. For every θ there is exactly one solution, it is piecewise linear in θ,
+// and the torque r · z never falls (strictly rises as soon as an index with r_i > 0 carries force).
 //
 //     gap, force                    One index: closed once q_1 < θ r_1, then z_1 = (θ r_1 − q_1) / M_11.
-//       \      /                    Example: M = 1e-4 mm/N, q = 4e-3 mm, r = 14.5 mm, θ = 1e-3 rad: z = 105 N.
+//       \      /                    Example: M = 1e-4 mm/N, q = 4e-3 mm, r = 14.5 mm, θ = 1e-3 rad: z = 105
+//       N.
 //     gap\    /force
 //         \  /                      On a closed set A:  M_AA z_A = θ r_A − q_A,  dz_A/dθ = M_AA⁻¹ r_A,
 //     _____\/______ θ               d torque/dθ = r_A · M_AA⁻¹ r_A.
 //
-// How: a primal–dual active set (Hintermüller, Ito, Kunisch 2003, SIAM J. Optim. 13:865) changes all wrong indices at once
-// and ends in a few steps. M is no M-matrix, so that method can cycle: a set that returns (hash), or too many steps, hands
-// over to single pivots in the manner of Lawson and Hanson (Solving Least Squares Problems, 1974, chapter 23), which lower
-// the energy ½ zᵀMz + (q − θ r)ᵀz every time and therefore end. Theory: Cottle, Pang, Stone, The Linear Complementarity
-// Problem (1992), chapters 3 and 4.
+// How: a primal–dual active set (Hintermüller, Ito, Kunisch 2003, SIAM J. Optim. 13:865) changes all wrong
+// indices at once and ends in a few steps. M is no M-matrix, so that method can cycle: a set that returns
+// (hash), or too many steps, hands over to single pivots in the manner of Lawson and Hanson (Solving Least
+// Squares Problems, 1974, chapter 23), which lower the energy ½ zᵀMz + (q − θ r)ᵀz every time and therefore
+// end. Theory: Cottle, Pang, Stone, The Linear Complementarity Problem (1992), chapters 3 and 4.
 //
-// The result is a fresh solve on the final closed set in ascending index order: its bits do not depend on the first set
-// that was supplied. Indices with force and gap both (nearly) zero are decided again from a start that does not depend on it.
+// The result is a fresh solve on the final closed set in ascending index order: its bits do not depend on the
+// first set that was supplied. Indices with force and gap both (nearly) zero are decided again from a start
+// that does not depend on it.
 
 #include "model/contact/lcp_factor.hpp"
 #include "model/gear/outcome.hpp"
@@ -36,7 +39,7 @@ using ActiveSet = std::vector<std::uint8_t>; ///< 1: closed; empty: no first gue
 
 struct ContactOptions {
   int max_block_steps = 60;    ///< active sets tried before single pivots take over
-  double tie_tolerance = 1e-9; ///< force (gap) below this part of the largest force (gap) counts as zero for ties
+  double tie_tolerance = 1e-9; ///< a force or gap below this part of its scale counts as zero for ties
 };
 
 struct ContactState {
@@ -46,21 +49,23 @@ struct ContactState {
   ActiveSet active;          ///< 1: closed and carrying
   std::vector<int> biactive; ///< ascending; indices with gap and force both zero (to the tie tolerance)
   double torque = 0.0;       ///< r · z, N·mm
-  double stiffness = 0.0;    ///< d torque / dθ towards larger θ (one-sided where biactive is not empty), N·mm/rad
-  bool contact = false;      ///< some index with r > 0 is closed or biactive; false: no contact up to this rotation
-  int iterations = 0;        ///< linear systems solved
-  bool fallback = false;     ///< the block steps returned to a set or were too many: single pivots ended it
+  double stiffness =
+      0.0; ///< d torque / dθ towards larger θ (one-sided where biactive is not empty), N·mm/rad
+  bool contact =
+      false;          ///< some index with r > 0 is closed or biactive; false: no contact up to this rotation
+  int iterations = 0; ///< linear systems solved
+  bool fallback = false; ///< the block steps returned to a set or were too many: single pivots ended it
 };
 
 /// Residuals that prove a state, computed from the problem and the forces alone.
 struct ContactCertificate {
-  double complementarity = 0.0; ///< max |z_i gap_i| / (max z · max |q − θ r|)
+  double complementarity = 0.0; ///< max |z_i gap_i| / (force_scale · gap_scale)
   double min_gap = 0.0;         ///< mm (negative: penetration)
   double min_force = 0.0;       ///< N (negative: tension)
   double torque_error = 0.0;    ///< |r · z − torque| / max(|torque|, max r · max z)
-  double gap_scale = 0.0;       ///< max |q − θ r|, mm: what min_gap is to be compared with
-  double force_scale = 0.0;     ///< max z, N
-  int worst = -1;               ///< index of the largest violation, −1 when n = 0
+  double gap_scale = 0.0;   ///< max |q| + |θ r| of the indices in contact, mm: what min_gap is measured by
+  double force_scale = 0.0; ///< max z, N
+  int worst = -1;           ///< index of the largest violation, −1 when n = 0
   /// Every residual below the tolerance, relative to its scale.
   bool holds(double tolerance = 1e-10) const;
 };
@@ -71,27 +76,30 @@ class EventPath;
 struct PathRange;
 
 /// Buffers for any number of solves: no allocation once the size is known. One object per thread.
-/// Throws std::invalid_argument for sizes that do not match, r < 0 or numbers that are not finite, and NotPositiveDefinite.
+/// Throws std::invalid_argument for sizes that do not match, r < 0 or numbers that are not finite, and
+/// NotPositiveDefinite.
 class ContactSolver {
 public:
   /// Solution at a rotation. `warm` is a first guess of the closed set and nothing else.
   ContactState solve_at(const ContactProblem& problem, double rotation, const ActiveSet& warm = {},
                         const ContactOptions& options = {});
-  void solve_at(const ContactProblem& problem, double rotation, const ActiveSet& warm, const ContactOptions& options,
-                ContactState& state);
+  void solve_at(const ContactProblem& problem, double rotation, const ActiveSet& warm,
+                const ContactOptions& options, ContactState& state);
 
-  /// Solution at a torque r · z > 0 [N·mm]: the minimum of ½ zᵀMz + qᵀz with r · z = torque, z ≥ 0; θ is the multiplier.
-  /// Torque 0 means the take-up: the largest θ without load on an index with r > 0. A torque below 0 is refused
-  /// (std::invalid_argument). Status::no_contact when no index has r > 0.
+  /// Solution at a torque r · z > 0 [N·mm]: the minimum of ½ zᵀMz + qᵀz with r · z = torque, z ≥ 0; θ is the
+  /// multiplier. Torque 0 means the take-up: the largest θ without load on an index with r > 0. A torque
+  /// below 0 is refused (std::invalid_argument). Status::no_contact when no index has r > 0.
   Outcome<ContactState> solve_torque(const ContactProblem& problem, double torque, const ActiveSet& warm = {},
                                      const ContactOptions& options = {});
 
-  /// The rotation at which the first index with r > 0 touches, with the others (walls) in equilibrium; may be negative.
+  /// The rotation at which the first index with r > 0 touches, with the others (walls) in equilibrium; may be
+  /// negative.
   Outcome<double> take_up(const ContactProblem& problem, const ContactOptions& options = {});
 
   /// Exact path from event to event (lcp_path.hpp).
   EventPath trace(const ContactProblem& problem, const PathRange& range, const ContactOptions& options = {});
-  void trace(const ContactProblem& problem, const PathRange& range, const ContactOptions& options, EventPath& path);
+  void trace(const ContactProblem& problem, const PathRange& range, const ContactOptions& options,
+             EventPath& path);
 
 private:
   enum class Mode { rotation, torque, direction }; ///< what the linear systems are solved for
@@ -102,6 +110,7 @@ private:
   void factorize(const ContactProblem& problem);
   void solve_on_set(std::vector<double>& x);
   void residual(const ContactProblem& problem);
+  double rounding(std::size_t index) const; ///< level of rounding of gap_[index]
   bool block_steps(const ContactProblem& problem, const ContactOptions& options);
   void single_pivots(const ContactProblem& problem);
   void pivot_to_optimum(const ContactProblem& problem);
@@ -118,11 +127,11 @@ private:
   Mode mode_ = Mode::rotation;
   double rotation_ = 0.0, torque_ = 0.0; ///< given or found
   double largest_diagonal_ = 0.0;
-  double gap_scale_ = 0.0;              ///< max |q − θ r| of the last residual()
-  double tolerance_ = 0.0;              ///< rounding level of the gaps of the last residual()
-  std::vector<double> load_;            ///< q − θ r (direction: −r), by index
-  std::vector<double> x_, trial_;       ///< unknowns, by position in the factor
-  std::vector<double> gap_;             ///< by index
+  double largest_response_ = 0.0; ///< bound of |M z| of the last residual(), mm
+  std::vector<double> load_;      ///< q − θ r (direction: −r), by index
+  std::vector<double> scale_;     ///< |q| + |θ r|: what load_ is a difference of, by index
+  std::vector<double> x_, trial_; ///< unknowns, by position in the factor
+  std::vector<double> gap_;       ///< by index
   std::vector<std::uint8_t> closed_, kind_, rejected_;
   std::vector<int> list_, ties_;
   std::vector<std::uint64_t> visited_;

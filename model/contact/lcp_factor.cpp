@@ -1,4 +1,5 @@
 #include "model/contact/lcp_factor.hpp"
+#include "model/contact/lcp_lanes.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -7,37 +8,11 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <type_traits>
 
 namespace strainwave {
 
-namespace {
-
-// Eight doubles side by side; the compiler splits them where the processor has narrower registers.
-typedef double Pack __attribute__((vector_size(64), aligned(8), may_alias));
-constexpr int lanes = 8;
-
-inline Pack load(const double* p) { return *reinterpret_cast<const Pack*>(p); }
-inline void store(double* p, const Pack& v) { *reinterpret_cast<Pack*>(p) = v; }
-
-/// y −= a x
-inline void subtract_scaled(double a, const double* __restrict x, double* __restrict y, int n) {
-  for (int i = 0; i < n; ++i) y[i] -= a * x[i];
-}
-
-/// Sum in a fixed order: eight partial sums, then pairwise, then the rest.
-inline double dot(const double* x, const double* y, int n) {
-  double sum = 0.0;
-  int i = 0;
-  if (n >= lanes) {
-    Pack s = load(x) * load(y);
-    for (i = lanes; i + lanes <= n; i += lanes) s += load(x + i) * load(y + i);
-    sum = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
-  }
-  for (; i < n; ++i) sum += x[i] * y[i];
-  return sum;
-}
-
-} // namespace
+using namespace lanewise;
 
 NotPositiveDefinite::NotPositiveDefinite(int index_in, double pivot_in)
     : std::runtime_error("the contact matrix is not positive definite: pivot " + std::to_string(pivot_in) +
@@ -46,25 +21,74 @@ NotPositiveDefinite::NotPositiveDefinite(int index_in, double pivot_in)
 
 void ActiveFactor::reset(int n) {
   size_ = 0;
-  if (n <= capacity_) return;
+  if (n <= capacity_)
+    return;
   capacity_ = n;
-  stride_ = (static_cast<std::size_t>(n) + 2 + 2 * lanes - 1) / lanes * lanes;
-  if (stride_ % 64 == 0) stride_ += lanes; // columns a page apart would share cache sets
-  memory_.assign(stride_ * static_cast<std::size_t>(n) + 2 * lanes, 0.0);
+  stride_ = (static_cast<std::size_t>(n) + 2 + 2 * line - 1) / line * line;
+  if (stride_ % 64 == 0)
+    stride_ += line; // columns a page apart would share cache sets
+  memory_.assign(stride_ * static_cast<std::size_t>(n) + 2 * line, 0.0);
   const auto address = reinterpret_cast<std::uintptr_t>(memory_.data());
   storage_ = memory_.data() + (64 - address % 64) % 64 / sizeof(double);
-  for (auto* v : {&inverse_diagonal_, &yq_, &yr_, &work_}) v->assign(static_cast<std::size_t>(n) + lanes, 0.0);
+  for (auto* v : {&inverse_diagonal_, &yq_, &yr_, &work_})
+    v->assign(static_cast<std::size_t>(n), 0.0);
   order_.assign(static_cast<std::size_t>(n), 0);
 }
 
-double ActiveFactor::checked_pivot(const ContactProblem& problem, int index, double pivot) const {
-  const double floor = 4.0 * std::numeric_limits<double>::epsilon() * problem.m(index, index);
-  if (!(pivot > floor)) throw NotPositiveDefinite(index, pivot);
-  return pivot;
+double ActiveFactor::root_of_pivot(int index, double pivot, double diagonal) {
+  const double floor = 4.0 * std::numeric_limits<double>::epsilon() * diagonal;
+  if (!(pivot > floor))
+    throw NotPositiveDefinite(index, pivot);
+  return std::sqrt(pivot);
+}
+
+/// Cholesky of the columns first … first + Columns − 1 once the columns before them are taken off: the square
+/// on the diagonal by scalars, then the rows below it in one pass.
+template <int Columns>
+void ActiveFactor::finish_columns(int first, int rows) {
+  double* const l = column(first);
+  const auto at = [&](int i, int c) -> double& { return l[c * stride_ + first + i]; };
+  double inverse[Columns];
+  for (int c = 0; c < Columns; ++c) {
+    const auto j = static_cast<std::size_t>(first + c);
+    for (int p = 0; p < c; ++p)
+      for (int i = c; i < Columns; ++i)
+        at(i, c) -= at(i, p) * at(c, p);
+    const double root = root_of_pivot(order_[j], at(c, c), work_[j]);
+    inverse_diagonal_[j] = inverse[c] = 1.0 / root;
+    at(c, c) = root;
+    for (int i = c + 1; i < Columns; ++i)
+      at(i, c) *= inverse[c];
+  }
+  int i = first + Columns;
+  const auto row = [&]<class Number>(Number(&x)[Columns]) {
+    for (int c = 0; c < Columns; ++c) {
+      for (int p = 0; p < c; ++p)
+        x[c] -= x[p] * at(c, p);
+      x[c] *= inverse[c];
+    }
+  };
+  for (; i + lanes <= rows; i += lanes) {
+    Pack x[Columns];
+    for (int c = 0; c < Columns; ++c)
+      x[c] = load(l + c * stride_ + i);
+    row(x);
+    for (int c = 0; c < Columns; ++c)
+      store(l + c * stride_ + i, x[c]);
+  }
+  for (; i < rows; ++i) {
+    double x[Columns];
+    for (int c = 0; c < Columns; ++c)
+      x[c] = l[c * stride_ + i];
+    row(x);
+    for (int c = 0; c < Columns; ++c)
+      l[c * stride_ + i] = x[c];
+  }
 }
 
 /// Columns first … first + Columns − 1 minus what the columns before them contribute, from row `first` on.
-template <int Columns> void ActiveFactor::update_columns(int first, int rows) {
+template <int Columns>
+void ActiveFactor::update_columns(int first, int rows) {
   double* const target = column(first);
   int i = first / lanes * lanes;
   for (; i + lanes < rows; i += 2 * lanes) {
@@ -88,13 +112,16 @@ template <int Columns> void ActiveFactor::update_columns(int first, int rows) {
   }
   if (i < rows) {
     Pack a[Columns];
-    for (int c = 0; c < Columns; ++c) a[c] = load(target + c * stride_ + i);
+    for (int c = 0; c < Columns; ++c)
+      a[c] = load(target + c * stride_ + i);
     const double* l = storage_;
     for (int p = 0; p < first; ++p, l += stride_) {
       const Pack u = load(l + i);
-      for (int c = 0; c < Columns; ++c) a[c] -= u * l[first + c];
+      for (int c = 0; c < Columns; ++c)
+        a[c] -= u * l[first + c];
     }
-    for (int c = 0; c < Columns; ++c) store(target + c * stride_ + i, a[c]);
+    for (int c = 0; c < Columns; ++c)
+      store(target + c * stride_ + i, a[c]);
   }
 }
 
@@ -105,32 +132,33 @@ void ActiveFactor::factorize(const ContactProblem& problem, std::span<const int>
   const int rows = k + 2; // the last two: q and r
   for (int j = 0; j < k; ++j) {
     const int column_index = set[static_cast<std::size_t>(j)];
-    const double* source = problem.m.data() + static_cast<std::size_t>(column_index) * problem.m.outerStride();
+    const double* source =
+        problem.m.data() + static_cast<std::size_t>(column_index) * problem.m.outerStride();
     double* target = column(j);
-    for (int i = j; i < k; ++i) target[i] = source[set[static_cast<std::size_t>(i)]];
+    for (int i = j; i < k; ++i)
+      target[i] = source[set[static_cast<std::size_t>(i)]];
+    work_[static_cast<std::size_t>(j)] = target[j];
     target[k] = problem.q[column_index];
     target[k + 1] = problem.r[column_index];
     order_[static_cast<std::size_t>(j)] = column_index;
   }
-  for (int first = 0; first < k; first += 4) {
-    const int columns = std::min(4, k - first);
-    if (first > 0) {
-      if (columns == 4) update_columns<4>(first, rows);
-      else if (columns == 3) update_columns<3>(first, rows);
-      else if (columns == 2) update_columns<2>(first, rows);
-      else update_columns<1>(first, rows);
-    }
-    for (int j = first; j < first + columns; ++j) {
-      double* l = column(j);
-      for (int p = first; p < j; ++p) subtract_scaled(column(p)[j], column(p) + j, l + j, rows - j);
-      const double pivot = std::sqrt(checked_pivot(problem, order_[static_cast<std::size_t>(j)], l[j]));
-      const double inverse = 1.0 / pivot;
-      l[j] = pivot;
-      for (int i = j + 1; i < rows; ++i) l[i] *= inverse;
-      inverse_diagonal_[static_cast<std::size_t>(j)] = inverse;
-      yq_[static_cast<std::size_t>(j)] = l[k];
-      yr_[static_cast<std::size_t>(j)] = l[k + 1];
-    }
+  const auto columns = [&]<int Columns>(std::integral_constant<int, Columns>, int first) {
+    if (first > 0)
+      update_columns<Columns>(first, rows);
+    finish_columns<Columns>(first, rows);
+  };
+  int first = 0;
+  for (; first + 4 <= k; first += 4)
+    columns(std::integral_constant<int, 4>{}, first);
+  if (k - first == 3)
+    columns(std::integral_constant<int, 3>{}, first);
+  else if (k - first == 2)
+    columns(std::integral_constant<int, 2>{}, first);
+  else if (k - first == 1)
+    columns(std::integral_constant<int, 1>{}, first);
+  for (int j = 0; j < k; ++j) {
+    yq_[static_cast<std::size_t>(j)] = column(j)[k];
+    yr_[static_cast<std::size_t>(j)] = column(j)[k + 1];
   }
   size_ = k;
 }
@@ -140,16 +168,15 @@ void ActiveFactor::append(const ContactProblem& problem, int index) {
   const int k = size_;
   double* x = work_.data();
   const double* source = problem.m.data() + static_cast<std::size_t>(index) * problem.m.outerStride();
-  for (int p = 0; p < k; ++p) x[p] = source[order_[static_cast<std::size_t>(p)]];
-  for (int p = 0; p < k; ++p) {
-    x[p] *= inverse_diagonal_[static_cast<std::size_t>(p)];
-    subtract_scaled(x[p], column(p) + p + 1, x + p + 1, k - p - 1);
-  }
-  const double pivot = std::sqrt(checked_pivot(problem, index, source[index] - dot(x, x, k)));
+  for (int p = 0; p < k; ++p)
+    x[p] = source[order_[static_cast<std::size_t>(p)]];
+  forward_substitute(x);
+  const double pivot = root_of_pivot(index, source[index] - dot(x, x, k), source[index]);
   const auto at = static_cast<std::size_t>(k);
   yq_[at] = (problem.q[index] - dot(x, yq_.data(), k)) / pivot;
   yr_[at] = (problem.r[index] - dot(x, yr_.data(), k)) / pivot;
-  for (int p = 0; p < k; ++p) column(p)[k] = x[p];
+  for (int p = 0; p < k; ++p)
+    column(p)[k] = x[p];
   column(k)[k] = pivot;
   inverse_diagonal_[at] = 1.0 / pivot;
   order_[at] = index;
@@ -161,7 +188,8 @@ void ActiveFactor::remove(int position) {
   const int k = size_;
   const int tail = k - position - 1;
   for (int p = 0; p < position; ++p)
-    std::memmove(column(p) + position, column(p) + position + 1, static_cast<std::size_t>(tail) * sizeof(double));
+    std::memmove(column(p) + position, column(p) + position + 1,
+                 static_cast<std::size_t>(tail) * sizeof(double));
   // Trailing block: L₃₃ L₃₃ᵀ + w wᵀ, one plane rotation for each column; q and r are turned along.
   double* w = work_.data();
   std::memcpy(w, column(position) + position + 1, static_cast<std::size_t>(tail) * sizeof(double));
@@ -189,78 +217,6 @@ void ActiveFactor::remove(int position) {
     order_[here - 1] = order_[here];
   }
   --size_;
-}
-
-double ActiveFactor::r_r() const { return dot(yr_.data(), yr_.data(), size_); }
-double ActiveFactor::r_q() const { return dot(yr_.data(), yq_.data(), size_); }
-
-void ActiveFactor::back_substitute(double* x) const {
-  for (int p = size_ - 1; p >= 0; --p) {
-    const int below = size_ - p - 1;
-    x[p] = (x[p] - dot(column(p) + p + 1, x + p + 1, below)) * inverse_diagonal_[static_cast<std::size_t>(p)];
-  }
-}
-
-void ActiveFactor::solve(double weight_q, double weight_r, double* x) const {
-  for (std::size_t p = 0; p < static_cast<std::size_t>(size_); ++p) x[p] = weight_q * yq_[p] + weight_r * yr_[p];
-  back_substitute(x);
-}
-
-void ActiveFactor::solve(double* b) const {
-  for (int p = 0; p < size_; ++p) {
-    b[p] *= inverse_diagonal_[static_cast<std::size_t>(p)];
-    subtract_scaled(b[p], column(p) + p + 1, b + p + 1, size_ - p - 1);
-  }
-  back_substitute(b);
-}
-
-void add_columns(const Eigen::MatrixXd& m, std::span<const int> order, const double* x, const double* base, double* out) {
-  const auto n = static_cast<std::size_t>(m.rows());
-  const double* const data = m.data();
-  if (n > 0) std::memcpy(out, base, n * sizeof(double));
-  double* __restrict result = out;
-  std::size_t p = 0;
-  for (; p + 4 <= order.size(); p += 4) {
-    const double* a = data + static_cast<std::size_t>(order[p]) * n;
-    const double* b = data + static_cast<std::size_t>(order[p + 1]) * n;
-    const double* c = data + static_cast<std::size_t>(order[p + 2]) * n;
-    const double* d = data + static_cast<std::size_t>(order[p + 3]) * n;
-    const double xa = x[p], xb = x[p + 1], xc = x[p + 2], xd = x[p + 3];
-    for (std::size_t i = 0; i < n; ++i) result[i] += (xa * a[i] + xb * b[i]) + (xc * c[i] + xd * d[i]);
-  }
-  for (; p < order.size(); ++p) {
-    const double* a = data + static_cast<std::size_t>(order[p]) * n;
-    const double xa = x[p];
-    for (std::size_t i = 0; i < n; ++i) result[i] += xa * a[i];
-  }
-}
-
-void add_columns(const Eigen::MatrixXd& m, std::span<const int> order, const double* x, const double* y, double* out_x,
-                 double* out_y) {
-  const auto n = static_cast<std::size_t>(m.rows());
-  const double* const data = m.data();
-  double *__restrict u = out_x, *__restrict v = out_y;
-  std::size_t p = 0;
-  for (; p + 4 <= order.size(); p += 4) {
-    const double* a = data + static_cast<std::size_t>(order[p]) * n;
-    const double* b = data + static_cast<std::size_t>(order[p + 1]) * n;
-    const double* c = data + static_cast<std::size_t>(order[p + 2]) * n;
-    const double* d = data + static_cast<std::size_t>(order[p + 3]) * n;
-    const double xa = x[p], xb = x[p + 1], xc = x[p + 2], xd = x[p + 3];
-    const double ya = y[p], yb = y[p + 1], yc = y[p + 2], yd = y[p + 3];
-    for (std::size_t i = 0; i < n; ++i) {
-      u[i] += (xa * a[i] + xb * b[i]) + (xc * c[i] + xd * d[i]);
-      v[i] += (ya * a[i] + yb * b[i]) + (yc * c[i] + yd * d[i]);
-    }
-  }
-  for (; p < order.size(); ++p) {
-    const double* a = data + static_cast<std::size_t>(order[p]) * n;
-    const double xa = x[p], ya = y[p];
-    for (std::size_t i = 0; i < n; ++i) {
-      u[i] += xa * a[i];
-      v[i] += ya * a[i];
-    }
-  }
 }
 
 } // namespace strainwave

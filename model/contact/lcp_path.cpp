@@ -1,6 +1,7 @@
 #include "model/contact/lcp_path.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
 
@@ -8,7 +9,8 @@ namespace strainwave {
 
 std::size_t EventPath::segment_at(double rotation) const {
   if (!(rotation >= start_rotation() && rotation <= end_rotation_))
-    throw std::out_of_range(fmt::format("rotation {} rad is not on the path [{}, {}]", rotation, start_rotation(), end_rotation_));
+    throw std::out_of_range(fmt::format("rotation {} rad is not on the path [{}, {}]", rotation,
+                                        start_rotation(), end_rotation_));
   const auto next = std::upper_bound(segments_.begin(), segments_.end(), rotation,
                                      [](double value, const Segment& s) { return value < s.rotation; });
   return static_cast<std::size_t>(next - segments_.begin()) - 1;
@@ -16,7 +18,8 @@ std::size_t EventPath::segment_at(double rotation) const {
 
 std::size_t EventPath::segment_at_torque(double torque) const {
   if (!(torque >= start_torque() && torque <= end_torque_))
-    throw std::out_of_range(fmt::format("torque {} N mm is not on the path [{}, {}]", torque, start_torque(), end_torque_));
+    throw std::out_of_range(
+        fmt::format("torque {} N mm is not on the path [{}, {}]", torque, start_torque(), end_torque_));
   const auto next = std::upper_bound(segments_.begin(), segments_.end(), torque,
                                      [](double value, const Segment& s) { return value < s.torque; });
   return static_cast<std::size_t>(next - segments_.begin()) - 1;
@@ -48,22 +51,29 @@ void EventPath::evaluate(std::size_t segment, double rotation, ContactState& sta
   state.stiffness = segments_[segment].stiffness;
   state.iterations = 0;
   state.fallback = false;
-  double force_scale = 0.0, gap_scale = 0.0;
+  double largest_force = 0.0;
   for (int i = 0; i < n_; ++i) {
     state.force[i] = active[i] ? std::max(0.0, force[i] + step * force_rate[i]) : 0.0; // rounding at the ends
     state.gap[i] = active[i] ? 0.0 : gap[i] + step * gap_rate[i];
-    state.torque += loaded_[static_cast<std::size_t>(i)] * state.force[i];
-    force_scale = std::max(force_scale, state.force[i]);
-    gap_scale = std::max(gap_scale, state.gap[i]);
+    state.torque += r_[static_cast<std::size_t>(i)] * state.force[i];
+    largest_force = std::max(largest_force, state.force[i]);
   }
-  for (int i = 0; i < n_; ++i) {
-    const bool tie = active[i] ? state.force[i] <= tie_tolerance * force_scale : state.gap[i] <= tie_tolerance * gap_scale;
-    if (tie) state.biactive.push_back(i);
-    if ((tie || active[i]) && loaded_[static_cast<std::size_t>(i)] > 0.0) state.contact = true;
+  for (int i = 0; i < n_; ++i) { // as in ContactSolver::find_ties
+    const auto at = static_cast<std::size_t>(i);
+    const double small_gap = tie_tolerance * (std::abs(q_[at]) + std::abs(rotation * r_[at]));
+    const bool tie =
+        active[i] ? state.force[i] <= std::max(tie_tolerance * largest_force, small_gap / largest_diagonal_)
+                  : state.gap[i] <= small_gap;
+    if (tie)
+      state.biactive.push_back(i);
+    if ((tie || active[i]) && r_[static_cast<std::size_t>(i)] > 0.0)
+      state.contact = true;
   }
 }
 
-void EventPath::at(double rotation, ContactState& state) const { evaluate(segment_at(rotation), rotation, state); }
+void EventPath::at(double rotation, ContactState& state) const {
+  evaluate(segment_at(rotation), rotation, state);
+}
 
 ContactState EventPath::at(double rotation) const {
   ContactState state;

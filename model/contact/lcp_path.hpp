@@ -1,16 +1,18 @@
 #pragma once
-// The exact load path: the solution of the contact problem for every rotation of a range, in closed form from event to
-// event.
+// The exact load path: the solution of the contact problem for every rotation of a range, in closed form from
+// event to event.
 //
 // Between two events the closed set A is constant and everything is linear in θ:
 //     z(θ) = z_k + (θ − θ_k) s,   s = M_AA⁻¹ r_A,      gap(θ) = gap_k + (θ − θ_k) g,   g = −r + M s.
-// An event is the least θ at which a force falls to zero (the index opens) or a gap closes. One index: it changes sides.
-// Several at once, the normal case with two equal lobes: the rates after the event solve the same complementarity problem
-// on those indices alone, gap' = −r + M z' with the strictly closed ones free in sign; its single solution says who opens,
-// who closes and who stays. z_k is solved anew at every event from the factor, so nothing accumulates along the path; the
-// factor itself grows and shrinks by one index at a time (k² instead of k³/6).
+// An event is the least θ at which a force falls to zero (the index opens) or a gap closes. One index: it
+// changes sides. Several at once, the normal case with two equal lobes: the rates after the event solve the
+// same complementarity problem on those indices alone, gap' = −r + M z' with the strictly closed ones free in
+// sign; its single solution says who opens, who closes and who stays. z_k is solved anew at every event from
+// the factor, so nothing accumulates along the path; the factor itself grows and shrinks by one index at a
+// time (k² instead of k³/6).
 //
-//     torque |            ____/         slope d torque/dθ = s · r_A: rises when a tooth closes, falls when a support
+//     torque |            ____/         slope d torque/dθ = s · r_A: rises when a tooth closes, falls when a
+//     support
 //            |       __ /               (r = 0) lifts off
 //            |  ___/
 //            |_/________________ θ
@@ -27,7 +29,8 @@ namespace strainwave {
 struct PathRange {
   double start_rotation = 0.0;                                   ///< rad
   double end_rotation = std::numeric_limits<double>::infinity(); ///< rad
-  double end_torque = std::numeric_limits<double>::infinity();   ///< r · z, N·mm; the path ends at whichever comes first
+  double end_torque =
+      std::numeric_limits<double>::infinity(); ///< r · z, N·mm; the path ends at whichever comes first
 };
 
 /// An index that changes sides at an event.
@@ -49,7 +52,8 @@ public:
   enum class End {
     rotation,   ///< end_rotation reached
     torque,     ///< end_torque reached
-    no_contact, ///< nothing more happens on the way to an unbounded end: no index with r > 0 can carry the torque asked for
+    no_contact, ///< nothing more happens on the way to an unbounded end: no index with r > 0 can carry the
+                ///< torque asked for
     event_limit ///< more events than any gear has (guard against a degenerate matrix)
   };
 
@@ -57,7 +61,8 @@ public:
   /// Throws std::out_of_range outside [start_rotation, end_rotation].
   ContactState at(double rotation) const;
   void at(double rotation, ContactState& state) const;
-  /// Throws std::out_of_range outside [start torque, end torque]. At the torque of the start: the largest such rotation.
+  /// Throws std::out_of_range outside [start torque, end torque]. At the torque of the start: the largest
+  /// such rotation.
   ContactState at_torque(double torque) const;
   double torque_at(double rotation) const;
   double rotation_at(double torque) const;
@@ -97,7 +102,8 @@ private:
   std::vector<Segment> segments_;
   std::vector<double> data_;
   std::vector<std::uint8_t> active_; ///< n for each segment
-  std::vector<double> loaded_;       ///< r, for torque and contact of a state
+  std::vector<double> q_, r_;        ///< of the problem, for torque and ties of a state
+  double largest_diagonal_ = 0.0;    ///< of M, mm/N
   std::vector<PathEvent> events_;
   std::vector<ContactChange> changes_;
 };

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// A set's hash is the exclusive or of its indices' (splitmix64, Steele, Lea, Flood 2014). A collision only costs time:
-/// it hands over to single pivots early.
+/// A set's hash is the exclusive or of its indices' (splitmix64, Steele, Lea, Flood 2014). A collision only
+/// costs time: it hands over to single pivots early.
 std::uint64_t hash_of(int index) {
   std::uint64_t h = (static_cast<std::uint64_t>(index) + 1) * 0x9e3779b97f4a7c15u;
   h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -25,9 +25,11 @@ std::uint64_t hash_of(int index) {
 
 void ContactSolver::prepare(const ContactProblem& problem, const ActiveSet& warm) {
   const auto n = static_cast<std::size_t>(problem.size());
-  if (problem.m.rows() != problem.q.size() || problem.m.cols() != problem.q.size() || problem.r.size() != problem.q.size())
+  if (problem.m.rows() != problem.q.size() || problem.m.cols() != problem.q.size() ||
+      problem.r.size() != problem.q.size())
     throw std::invalid_argument("contact problem: the sizes of M, q and r differ");
-  if (!warm.empty() && warm.size() != n) throw std::invalid_argument("contact problem: the first guess has another size");
+  if (!warm.empty() && warm.size() != n)
+    throw std::invalid_argument("contact problem: the first guess has another size");
   largest_diagonal_ = 0.0;
   double sum = 0.0, least_r = 0.0;
   for (int i = 0; i < problem.size(); ++i) {
@@ -35,13 +37,17 @@ void ContactSolver::prepare(const ContactProblem& problem, const ActiveSet& warm
     sum += std::abs(problem.q[i]) + std::abs(problem.r[i]);
     least_r = std::min(least_r, problem.r[i]);
   }
-  if (!std::isfinite(sum)) throw std::invalid_argument("contact problem: a gap or radius is not finite");
-  if (least_r < 0.0) throw std::invalid_argument("contact problem: a radius is negative");
+  if (!std::isfinite(sum))
+    throw std::invalid_argument("contact problem: a gap or radius is not finite");
+  if (least_r < 0.0)
+    throw std::invalid_argument("contact problem: a radius is negative");
   factor_.reset(problem.size());
-  for (auto* v : {&load_, &x_, &trial_, &gap_}) v->resize(n);
+  for (auto* v : {&load_, &scale_, &x_, &trial_, &gap_})
+    v->resize(n);
   closed_.assign(n, 0);
   kind_.assign(n, constrained);
-  if (list_.capacity() < n) list_.reserve(n);
+  if (list_.capacity() < n)
+    list_.reserve(n);
   ties_.clear();
   iterations_ = 0;
   fallback_ = false;
@@ -50,7 +56,8 @@ void ContactSolver::prepare(const ContactProblem& problem, const ActiveSet& warm
 void ContactSolver::collect() {
   list_.clear();
   for (std::size_t i = 0; i < closed_.size(); ++i)
-    if (closed_[i]) list_.push_back(static_cast<int>(i));
+    if (closed_[i])
+      list_.push_back(static_cast<int>(i));
 }
 
 void ContactSolver::factorize(const ContactProblem& problem) {
@@ -60,33 +67,44 @@ void ContactSolver::factorize(const ContactProblem& problem) {
 }
 
 void ContactSolver::solve_on_set(std::vector<double>& x) {
-  if (mode_ == Mode::direction) return factor_.solve(0.0, 1.0, x.data());
-  if (mode_ == Mode::torque) rotation_ = (torque_ + factor_.r_q()) / factor_.r_r(); // r · z = torque fixes θ
+  if (mode_ == Mode::direction)
+    return factor_.solve(0.0, 1.0, x.data());
+  if (mode_ == Mode::torque)
+    rotation_ = (torque_ + factor_.r_q()) / factor_.r_r(); // r · z = torque fixes θ
   factor_.solve(-1.0, rotation_, x.data());
 }
 
 void ContactSolver::residual(const ContactProblem& problem) {
-  const double q_weight = mode_ == Mode::direction ? 0.0 : 1.0, r_weight = mode_ == Mode::direction ? 1.0 : rotation_;
-  gap_scale_ = 0.0;
-  for (int i = 0; i < problem.size(); ++i) {
-    const double load = q_weight * problem.q[i] - r_weight * problem.r[i];
-    load_[static_cast<std::size_t>(i)] = load;
-    gap_scale_ = std::max(gap_scale_, std::abs(load));
+  const double q_weight = mode_ == Mode::direction ? 0.0 : 1.0,
+               r_weight = mode_ == Mode::direction ? 1.0 : rotation_;
+  const auto n = static_cast<std::size_t>(problem.size());
+  const double *q = problem.q.data(), *r = problem.r.data();
+  for (std::size_t i = 0; i < n; ++i) {
+    load_[i] = q_weight * q[i] - r_weight * r[i];
+    scale_[i] = std::abs(q_weight * q[i]) + std::abs(r_weight * r[i]);
   }
   double force_sum = 0.0;
-  for (int p = 0; p < factor_.size(); ++p) force_sum += std::abs(x_[static_cast<std::size_t>(p)]);
+  for (int p = 0; p < factor_.size(); ++p)
+    force_sum += std::abs(x_[static_cast<std::size_t>(p)]);
+  largest_response_ = largest_diagonal_ * force_sum; // |M_ij| ≤ largest diagonal
   add_columns(problem.m, factor_.order(), x_.data(), load_.data(), gap_.data());
-  tolerance_ = 16.0 * epsilon * (gap_scale_ + largest_diagonal_ * force_sum); // |M_ij| ≤ largest diagonal
 }
 
-/// Primal–dual active set: every index of the wrong sign changes at once. False: a set came back, or too many steps.
+double ContactSolver::rounding(std::size_t index) const {
+  return 16.0 * epsilon * (scale_[index] + largest_response_);
+}
+
+/// Primal–dual active set: every index of the wrong sign changes at once. False: a set came back, or too many
+/// steps.
 bool ContactSolver::block_steps(const ContactProblem& problem, const ContactOptions& options) {
   visited_.clear();
   for (int step = 0; step < options.max_block_steps; ++step) {
     factorize(problem);
     std::uint64_t hash = 0;
-    for (const int i : list_) hash ^= hash_of(i);
-    if (std::find(visited_.begin(), visited_.end(), hash) != visited_.end()) return false;
+    for (const int i : list_)
+      hash ^= hash_of(i);
+    if (std::find(visited_.begin(), visited_.end(), hash) != visited_.end())
+      return false;
     visited_.push_back(hash);
     solve_on_set(x_);
     residual(problem);
@@ -94,111 +112,39 @@ bool ContactSolver::block_steps(const ContactProblem& problem, const ContactOpti
     std::size_t position = 0;
     for (std::size_t i = 0; i < closed_.size(); ++i) {
       if (closed_[i]) {
-        if (!(x_[position++] > 0.0)) closed_[i] = 0, changed = true;
-      } else if (kind_[i] == constrained && !(gap_[i] >= -tolerance_)) { // also true for NaN, which the factor then names
+        if (!(x_[position++] > 0.0))
+          closed_[i] = 0, changed = true;
+      } else if (kind_[i] == constrained &&
+                 !(gap_[i] >= -rounding(i))) { // also true for NaN, which the factor then names
         closed_[i] = 1;
         changed = true;
       }
     }
-    if (!changed) return true;
+    if (!changed)
+      return true;
   }
   return false;
 }
 
-/// Leaves a set on which all constrained unknowns are positive: x_ by ascending index.
-void ContactSolver::drop_tension(const ContactProblem& problem) {
-  for (bool dropped = true; dropped;) {
-    factorize(problem);
-    solve_on_set(x_);
-    dropped = false;
-    for (std::size_t p = 0; p < list_.size(); ++p) {
-      const auto i = static_cast<std::size_t>(list_[p]);
-      if (kind_[i] == constrained && !(x_[p] > 0.0)) closed_[i] = 0, dropped = true;
-    }
-  }
-}
-
-void ContactSolver::remove_position(int position) {
-  closed_[static_cast<std::size_t>(factor_.order()[static_cast<std::size_t>(position)])] = 0;
-  const auto from = x_.begin() + position;
-  std::move(from + 1, x_.begin() + factor_.size(), from);
-  factor_.remove(position);
-}
-
-void ContactSolver::single_pivots(const ContactProblem& problem) {
-  drop_tension(problem);
-  pivot_to_optimum(problem);
-}
-
-/// Lawson–Hanson: the most negative gap enters (lowest index on a tie); whoever would be pulled leaves on the way.
-/// Starts from the factor's set with its solution in x_, all constrained ones positive.
-void ContactSolver::pivot_to_optimum(const ContactProblem& problem) {
-  rejected_.assign(closed_.size(), 0);
-  const int limit = 50 * problem.size() + 100;
-  for (int pivot = 0; pivot < limit; ++pivot) {
-    residual(problem);
-    int entering = -1;
-    double least = -tolerance_;
-    for (int i = 0; i < problem.size(); ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      if (kind_[at] == constrained && !closed_[at] && !rejected_[at] && gap_[at] < least) least = gap_[at], entering = i;
-    }
-    if (entering < 0) return;
-    const double rotation_before = rotation_;
-    closed_[static_cast<std::size_t>(entering)] = 1;
-    x_[static_cast<std::size_t>(factor_.size())] = 0.0;
-    factor_.append(problem, entering);
-    bool progress = true;
-    for (bool first = true;; first = false) {
-      solve_on_set(trial_);
-      ++iterations_;
-      const int k = factor_.size();
-      if (first && !(trial_[static_cast<std::size_t>(k - 1)] > 0.0)) { // its gap was rounding noise
-        remove_position(k - 1);
-        rejected_[static_cast<std::size_t>(entering)] = 1;
-        rotation_ = rotation_before;
-        progress = false;
-        break;
-      }
-      const auto blocking = [&](int p) {
-        const auto at = static_cast<std::size_t>(p);
-        return kind_[static_cast<std::size_t>(factor_.order()[at])] == constrained && !(trial_[at] > 0.0);
-      };
-      const auto share = [&](int p) { // of the way at which p loses its force
-        const auto at = static_cast<std::size_t>(p);
-        return x_[at] > 0.0 ? x_[at] / (x_[at] - trial_[at]) : 0.0;
-      };
-      double alpha = 2.0;
-      for (int p = 0; p < k; ++p)
-        if (blocking(p)) alpha = std::min(alpha, share(p));
-      if (alpha > 1.5) {
-        std::copy_n(trial_.begin(), k, x_.begin());
-        break;
-      }
-      std::vector<int>& leaving = list_;
-      leaving.clear();
-      for (int p = 0; p < k; ++p)
-        if (blocking(p) && share(p) <= alpha) leaving.push_back(p);
-      for (std::size_t p = 0; p < static_cast<std::size_t>(k); ++p) x_[p] += alpha * (trial_[p] - x_[p]);
-      for (auto p = leaving.rbegin(); p != leaving.rend(); ++p) remove_position(*p);
-    }
-    if (progress) std::fill(rejected_.begin(), rejected_.end(), std::uint8_t{0});
-  }
-}
-
 void ContactSolver::find_ties(const ContactOptions& options) {
   ties_.clear();
-  double force_scale = 0.0;
-  for (int p = 0; p < factor_.size(); ++p) force_scale = std::max(force_scale, x_[static_cast<std::size_t>(p)]);
-  const double small_force = options.tie_tolerance * force_scale, small_gap = options.tie_tolerance * gap_scale_;
+  double largest_force = 0.0;
+  for (int p = 0; p < factor_.size(); ++p)
+    largest_force = std::max(largest_force, x_[static_cast<std::size_t>(p)]);
+  const double compliance = largest_diagonal_ > 0.0 ? largest_diagonal_ : 1.0;
   std::size_t position = 0;
   for (std::size_t i = 0; i < closed_.size(); ++i) {
-    const bool tie = closed_[i] ? x_[position++] <= small_force : kind_[i] == constrained && gap_[i] <= small_gap;
-    if (tie) ties_.push_back(static_cast<int>(i));
+    const double small_gap = options.tie_tolerance * scale_[i];
+    const double small_force = std::max(options.tie_tolerance * largest_force, small_gap / compliance);
+    const bool tie =
+        closed_[i] ? x_[position++] <= small_force : kind_[i] == constrained && gap_[i] <= small_gap;
+    if (tie)
+      ties_.push_back(static_cast<int>(i));
   }
 }
 
-/// From the set in closed_ to the solution: x_ and gap_ fresh on the final set in ascending order, ties_ listed.
+/// From the set in closed_ to the solution: x_ and gap_ fresh on the final set in ascending order, ties_
+/// listed.
 void ContactSolver::solve_constrained(const ContactProblem& problem, const ContactOptions& options) {
   if (!block_steps(problem, options)) {
     fallback_ = true;
@@ -207,18 +153,21 @@ void ContactSolver::solve_constrained(const ContactProblem& problem, const Conta
     residual(problem);
   }
   find_ties(options);
-  if (ties_.empty()) return;
-  for (const int i : ties_) closed_[static_cast<std::size_t>(i)] = 0; // a start that no first guess can have shaped
+  if (ties_.empty())
+    return;
+  for (const int i : ties_)
+    closed_[static_cast<std::size_t>(i)] = 0; // a start that no first guess can have shaped
   single_pivots(problem);
   drop_tension(problem);
   residual(problem);
   find_ties(options);
 }
 
-/// What the closed set does for growing θ when ties_ may open or close: the same problem for the rates, gap' = −r + M z',
-/// with the closed indices free in sign and the ties constrained. Leaves its set in the factor.
+/// What the closed set does for growing θ when ties_ may open or close: the same problem for the rates, gap'
+/// = −r + M z', with the closed indices free in sign and the ties constrained. Leaves its set in the factor.
 void ContactSolver::one_sided_direction(const ContactProblem& problem) {
-  for (std::size_t i = 0; i < kind_.size(); ++i) kind_[i] = closed_[i] ? unconstrained : excluded;
+  for (std::size_t i = 0; i < kind_.size(); ++i)
+    kind_[i] = closed_[i] ? unconstrained : excluded;
   for (const int i : ties_) {
     kind_[static_cast<std::size_t>(i)] = constrained;
     closed_[static_cast<std::size_t>(i)] = 0;
@@ -240,13 +189,16 @@ void ContactSolver::emit(const ContactProblem& problem, ContactState& state) {
   for (int i = 0; i < n; ++i) {
     const bool closed = closed_[static_cast<std::size_t>(i)];
     state.gap[i] = closed ? 0.0 : gap_[static_cast<std::size_t>(i)];
-    if (!closed) continue;
+    if (!closed)
+      continue;
     state.force[i] = x_[position++];
     state.torque += problem.r[i] * state.force[i];
     state.contact = state.contact || problem.r[i] > 0.0;
   }
-  for (const int i : ties_) state.contact = state.contact || problem.r[i] > 0.0;
-  if (!ties_.empty()) one_sided_direction(problem);
+  for (const int i : ties_)
+    state.contact = state.contact || problem.r[i] > 0.0;
+  if (!ties_.empty())
+    one_sided_direction(problem);
   state.stiffness = factor_.r_r();
   state.iterations = iterations_;
   state.fallback = fallback_;
@@ -254,7 +206,8 @@ void ContactSolver::emit(const ContactProblem& problem, ContactState& state) {
 
 void ContactSolver::solve_at(const ContactProblem& problem, double rotation, const ActiveSet& warm,
                              const ContactOptions& options, ContactState& state) {
-  if (!std::isfinite(rotation)) throw std::invalid_argument("contact problem: the rotation is not finite");
+  if (!std::isfinite(rotation))
+    throw std::invalid_argument("contact problem: the rotation is not finite");
   prepare(problem, warm);
   mode_ = Mode::rotation;
   rotation_ = rotation;

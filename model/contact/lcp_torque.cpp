@@ -7,12 +7,14 @@
 namespace strainwave {
 
 namespace {
-const char* const nothing_carries = "no contact: no index of the contact problem has a radius, so no torque can act";
+const char* const nothing_carries =
+    "no contact: no index of the contact problem has a radius, so no torque can act";
 }
 
-/// Equilibrium of the indices with r = 0 alone. Returns the rotation at which the first of the others touches (infinite
-/// when there is none); closed_ holds the supports.
-double ContactSolver::solve_supports(const ContactProblem& problem, const ContactOptions& options, int& first_index) {
+/// Equilibrium of the indices with r = 0 alone. Returns the rotation at which the first of the others touches
+/// (infinite when there is none); closed_ holds the supports.
+double ContactSolver::solve_supports(const ContactProblem& problem, const ContactOptions& options,
+                                     int& first_index) {
   mode_ = Mode::rotation;
   rotation_ = 0.0;
   for (int i = 0; i < problem.size(); ++i) {
@@ -25,9 +27,11 @@ double ContactSolver::solve_supports(const ContactProblem& problem, const Contac
   double least = std::numeric_limits<double>::infinity();
   first_index = -1;
   for (int i = 0; i < problem.size(); ++i) {
-    if (!(problem.r[i] > 0.0)) continue;
+    if (!(problem.r[i] > 0.0))
+      continue;
     const double touch = gap_[static_cast<std::size_t>(i)] / problem.r[i];
-    if (touch < least) least = touch, first_index = i;
+    if (touch < least)
+      least = touch, first_index = i;
   }
   return least;
 }
@@ -36,17 +40,19 @@ Outcome<double> ContactSolver::take_up(const ContactProblem& problem, const Cont
   prepare(problem, {});
   int first = -1;
   const double rotation = solve_supports(problem, options, first);
-  if (first < 0) return Failure{Status::no_contact, nothing_carries};
+  if (first < 0)
+    return Failure{Status::no_contact, nothing_carries};
   return rotation;
 }
 
-Outcome<ContactState> ContactSolver::solve_torque(const ContactProblem& problem, double torque, const ActiveSet& warm,
-                                                  const ContactOptions& options) {
+Outcome<ContactState> ContactSolver::solve_torque(const ContactProblem& problem, double torque,
+                                                  const ActiveSet& warm, const ContactOptions& options) {
   if (!std::isfinite(torque) || torque < 0.0)
     throw std::invalid_argument("contact problem: the torque must be finite and not negative");
   if (torque == 0.0) {
     const Outcome<double> rotation = take_up(problem, options);
-    if (!rotation) return rotation.failure();
+    if (!rotation)
+      return rotation.failure();
     return solve_at(problem, *rotation, ActiveSet(closed_), options);
   }
   prepare(problem, warm);
@@ -58,7 +64,8 @@ Outcome<ContactState> ContactSolver::solve_torque(const ContactProblem& problem,
   if (!carries) { // supports in equilibrium, and the tooth that touches first takes everything
     int first = -1;
     solve_supports(problem, options, first);
-    if (first < 0) return Failure{Status::no_contact, nothing_carries};
+    if (first < 0)
+      return Failure{Status::no_contact, nothing_carries};
     closed_[static_cast<std::size_t>(first)] = 1;
   }
   mode_ = Mode::torque;

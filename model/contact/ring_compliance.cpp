@@ -78,7 +78,8 @@ std::vector<WallStation> RingCompliance::stations(double phase) const {
   return result;
 }
 
-ToothFunctional RingCompliance::tooth(int sector, double radius_mm, double circumferential, double inwards) const {
+ToothFunctional RingCompliance::tooth(int sector, double radius_mm, double circumferential, double inwards,
+                                      int only_slice) const {
   const std::vector<double>& heights = responses_->flank_radius_mm;
   const int slices = static_cast<int>(responses_->flank_z_mm.size());
   assert(!heights.empty());
@@ -91,13 +92,17 @@ ToothFunctional RingCompliance::tooth(int sector, double radius_mm, double circu
     upper = std::clamp(upper, 1, static_cast<int>(heights.size()) - 1);
     const double lo = heights[static_cast<std::size_t>(upper - 1)];
     const double hi = heights[static_cast<std::size_t>(upper)];
-    const double share = (radius - lo) / (hi - lo);
-    levels = {{upper - 1, 1.0 - share}, {upper, share}};
+    const double upwards = (radius - lo) / (hi - lo);
+    levels = {{upper - 1, 1.0 - upwards}, {upper, upwards}};
   }
   ToothFunctional result{sector, {}};
   for (const auto& [level, weight] : levels) {
     for (int slice = 0; slice < slices; ++slice) {
-      const double part = weight / slices;
+      if (only_slice >= 0 && slice != only_slice) continue;
+      // hats at both ends of the face are half as wide as the others
+      const double width = slice == 0 || slice == slices - 1 ? 0.5 : 1.0;
+      const double share = only_slice >= 0 || slices == 1 ? 1.0 : width / (slices - 1);
+      const double part = weight * share;
       if (part == 0.0) continue;
       if (circumferential != 0.0) {
         result.weights.emplace_back(responses_->flank(level, slice, UnitResponses::circumferential),

@@ -1,10 +1,29 @@
 #include "model/forward/phase_model.hpp"
 
+#include "model/contact/lcp_march.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace strainwave {
+
+namespace {
+
+/// The source text's way to a torque: march the rotation a little past it, read the rotation off the polygon of accepted
+/// points, march there. `beyond` only bounds the march.
+ContactState march_to_torque(const ContactProblem& problem, double torque, double beyond, ContactSolver& solver) {
+  const MarchOptions options;
+  const March way = march(problem, 0.0, std::max(0.0, beyond) + 2.0 * options.step, options, solver);
+  std::size_t i = 1;
+  while (i + 1 < way.torque.size() && way.torque[i] < torque) ++i;
+  const double rise = way.torque[i] - way.torque[i - 1];
+  const double share = rise > 0.0 ? (torque - way.torque[i - 1]) / rise : 1.0;
+  const double rotation = way.rotation[i - 1] + share * (way.rotation[i] - way.rotation[i - 1]);
+  return march(problem, 0.0, rotation, options, solver).last;
+}
+
+} // namespace
 
 PhaseModel::PhaseModel(const Contact& contact, const RingCompliance& ring, const WaveGeneratorSurface& surface,
                        std::shared_ptr<const AssembledState> assembled, std::vector<LoadedTooth> teeth)
@@ -19,12 +38,19 @@ double PhaseModel::take_up_rad() const {
 }
 
 Outcome<PhaseLoad> PhaseModel::at_torque(double torque_nm, ContactSolver& solver) const {
-  const auto start = solver.solve_torque(load_.problem, 1e3 * torque_nm / load_.lobes, assembled_guess());
+  const double torque = 1e3 * torque_nm / load_.lobes;
+  const auto start = solver.solve_torque(load_.problem, torque, assembled_guess());
   if (!start) return start.failure();
+  if (contact_.method == LoadMethod::stepping) {
+    return finish(march_to_torque(load_.problem, torque, start->rotation, solver), Control::torque, solver);
+  }
   return finish(*start, Control::torque, solver);
 }
 
 Outcome<PhaseLoad> PhaseModel::at_rotation(double rotation_rad, ContactSolver& solver) const {
+  if (contact_.method == LoadMethod::stepping && rotation_rad > 0.0) {
+    return finish(march(load_.problem, 0.0, rotation_rad, MarchOptions{}, solver).last, Control::rotation, solver);
+  }
   return finish(solver.solve_at(load_.problem, rotation_rad, assembled_guess()), Control::rotation, solver);
 }
 

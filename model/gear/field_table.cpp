@@ -275,9 +275,9 @@ void add_calculation(std::vector<Field>& rows) {
       "distance from the diaphragm at which u0 is met, with assembled gaps; absent: discs as given"));
   constexpr auto M = &Gear::mesh;
   rows.push_back(
-      field<M, &Mesh::per_pitch>("mesh.per_pitch", "", within(1, 64), "elements around one tooth pitch"));
+      field<M, &Mesh::per_pitch>("mesh.per_pitch", "", within(3, 64), "elements around one tooth pitch"));
   rows.push_back(
-      field<M, &Mesh::along_face>("mesh.along_face", "", within(1, 200), "elements along the face"));
+      field<M, &Mesh::along_face>("mesh.along_face", "", within(2, 200), "elements along the face"));
   rows.push_back(field<M, &Mesh::along_wall>("mesh.along_wall", "", within(1, 200),
                                              "elements along the wall behind the teeth"));
   rows.push_back(

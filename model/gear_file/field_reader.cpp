@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdlib>
 
 namespace strainwave {
 
@@ -141,6 +142,17 @@ std::string node_words(const toml::node& node) {
   if (node.is_table())
     return "a table";
   return "a date or time";
+}
+
+std::optional<FieldValue> plain_value(const toml::node& node) {
+  if (const auto* text = node.as_string())
+    return FieldValue(text->get());
+  if (const auto* whole = node.as_integer(); whole && std::abs(whole->get()) <= 2147483647)
+    return FieldValue(static_cast<int>(whole->get()));
+  if (const auto number = as_number(node))
+    return FieldValue(*number);
+  std::vector<FileFault> faults;
+  return node.is_array() ? read_list("", *node.as_array(), faults) : std::nullopt;
 }
 
 std::optional<FieldValue> read_value(const Field& field, std::string_view key, const toml::node& node,

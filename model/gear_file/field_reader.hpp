@@ -16,6 +16,9 @@ namespace strainwave {
 /// "the text "0.2"", "a list", "the number 3.5": what a file gave instead of what was expected.
 std::string node_words(const toml::node& node);
 
+/// A number, text or list of numbers as it stands; nothing for other nodes.
+std::optional<FieldValue> plain_value(const toml::node& node);
+
 /// The node as the field wants it, checked. `key` is the full path for messages.
 std::optional<FieldValue> read_value(const Field& field, std::string_view key, const toml::node& node,
                                      std::vector<FileFault>& faults);

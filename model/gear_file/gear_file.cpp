@@ -25,6 +25,7 @@ public:
   void read(const toml::table& root) {
     read_table(root, "");
     demand_required_keys(root);
+    demand_table_file(root);
     if (!faults_.empty())
       throw FileError(document_.file, std::move(faults_));
   }
@@ -104,6 +105,15 @@ private:
                              ""});
       }
     }
+  }
+
+  /// The curve of shape = "table" is part of the file's content, so its absence is a fault of the file.
+  void demand_table_file(const toml::table& root) {
+    const WaveGenerator& wave = document_.gear.wave_generator;
+    const toml::node* shape = root.at_path("wave_generator.shape").node();
+    if (wave.shape == WaveGeneratorShape::table && wave.table_file.empty() && shape && faults_.empty())
+      faults_.push_back({place_of(*shape), "wave_generator.shape",
+                         "the shape \"table\" needs table_file, the file that holds the curve", ""});
   }
 
   GearDocument& document_;

@@ -52,7 +52,10 @@ std::string_view key_in(std::string_view line) {
   return key;
 }
 
+/// "x" for the headings [x] and [[x]].
 std::string_view table_in(std::string_view line) {
+  if (line.starts_with("[[") && line.ends_with("]]"))
+    return trimmed(line.substr(2, line.size() - 4));
   return line.starts_with("[") && line.ends_with("]") ? trimmed(line.substr(1, line.size() - 2))
                                                       : std::string_view();
 }

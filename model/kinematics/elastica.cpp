@@ -316,8 +316,9 @@ MadeShape make_elastica(const WaveGenerator& generator, double radius) {
     if (chebyshev_tail(series) > 1e-15 && points < 64)
       continue;
     const double arc = x[points];
-    // Two ways to the same numbers: CVODES + KINSOL, and the collocation.
-    if (!(std::abs(arc - shot->arc_rad) < 1e-6))
+    // Two ways to the same numbers: CVODES + KINSOL, and the collocation. Errors of the shooting reach the
+    // arc r_m/u0-fold.
+    if (!(std::abs(arc - shot->arc_rad) < 1e-8 * radius / u0))
       return not_converged(problem,
                            fmt::format("shooting and collocation disagree on the lift-off arc: {} and {} rad",
                                        shot->arc_rad, arc));
@@ -325,9 +326,10 @@ MadeShape make_elastica(const WaveGenerator& generator, double radius) {
       return Failure{
           Status::no_wrap,
           fmt::format(
-              "two_disc_exact: the elastica would lift off at {:.4f} degrees, so the discs do not wrap "
-              "it: e/u0 = {:.4f} is too close to the upper limit 5.279",
-              arc * 180.0 / pi, wrap->eccentricity_mm / u0)};
+              "two_disc_exact: the discs do not wrap the flexspline at e/u0 = {:.4f}: the lift-off angle "
+              "{:.4f} degrees is not positive (first order wraps up to 5.279, the exact curve a little "
+              "less as u0/r_m grows)",
+              wrap->eccentricity_mm / u0, arc * 180.0 / pi)};
     const Eigen::Matrix<double, Eigen::Dynamic, 3> derivatives = -factors.solve(by_parameter);
     auto elastica = std::make_shared<Elastica>(problem, collocation.grid(), x, derivatives);
     if (auto failure = check_wrap_agreement(generator, *elastica->summary().wrap_angle_rad))

@@ -192,7 +192,10 @@ private:
       for (std::size_t j = 0; j < 3; ++j)
         piece.start[j + 1] = derivatives[j];
     }
-    piece.end = piece.start[0] + integral(piece.size - 1, 0);
+    const double end = piece.start[0] + integral(piece.size - 1, 0);
+    piece.start[0] -=
+        chebyshev_sum<1>(piece.length.data(), piece.size, -1.0)[0]; // rounding of the series' own zero
+    piece.end = end;
     pieces_.push_back(std::move(piece));
   }
 

@@ -45,23 +45,33 @@ constexpr double pi = std::numbers::pi;
 /// minimum hides; the gap is analytic there and its stretches are short against its radius of curvature.
 constexpr int samples = 4;
 
+bool is_kink(const Mark& m) {
+  return m.place == ContactPlace::flexspline_kink || m.place == ContactPlace::circular_spline_kink;
+}
+
 class Search {
 public:
   Search(const ToothPair<double>& pair, const Placement<double>& place) : pair_(pair), place_(place) {}
 
   /// Least gap between two marks; both marks are candidates themselves.
   void stretch(const Mark& from, const Mark& to) {
-    const double width = (to.t - from.t) / samples;
-    Gap<double> left = flank_gap(pair_, place_, from.t);
-    offer(left, from);
-    if (!(width > 0.0))
+    const Gap<double> first = flank_gap(pair_, place_, from.t), last = flank_gap(pair_, place_, to.t);
+    offer(first, from);
+    if (!(to.t > from.t))
       return;
+    offer(last, to);
+    // At a kink the slope belongs to one side or the other by rounding: stay a hair off. A minimum in between
+    // is flat enough to differ from the mark's own value by less than rounding.
+    const double hair = 1e-8 * (to.t - from.t);
+    const double a = is_kink(from) ? from.t + hair : from.t, b = is_kink(to) ? to.t - hair : to.t;
+    const double width = (b - a) / samples;
+    double t = a;
+    Gap<double> left = is_kink(from) ? flank_gap(pair_, place_, a) : first;
     for (int k = 1; k <= samples; ++k) {
-      const double t = k == samples ? to.t : from.t + k * width;
-      const Gap<double> right = flank_gap(pair_, place_, t);
-      inside(t - width, left, t, right, 0);
-      if (k == samples)
-        offer(right, to);
+      const double next = k == samples ? b : a + k * width;
+      const Gap<double> right = k == samples && !is_kink(to) ? last : flank_gap(pair_, place_, next);
+      inside(t, left, next, right, 0);
+      t = next;
       left = right;
     }
   }

@@ -95,6 +95,46 @@ TEST_F(CommandLine, CheckOfAWrongFileSaysWhereAndPrintsNothing) {
   EXPECT_NE(end.err.find("strainwave: gear.toml:2:1: colour: no such key"), std::string::npos);
 }
 
+std::string seed_with(const std::string& before, const std::string& after) {
+  std::string text = seed;
+  return text.replace(text.find(before), before.size(), after);
+}
+
+TEST_F(CommandLine, CheckOfAGearThatContradictsItselfEndsWith3) {
+  write("gear.toml", seed_with("boss_radius_mm = 5.0", "boss_radius_mm = 14.0"));
+  const End end = run("check gear.toml");
+  EXPECT_EQ(end.code, 3);
+  EXPECT_TRUE(end.err.starts_with("strainwave: flexspline.boss_radius_mm 14 must be less than")) << end.err;
+}
+
+TEST_F(CommandLine, CheckOfAGearWithoutWrapEndsWith3) {
+  write("gear.toml", seed_with("eccentricity_mm = 0.6", "eccentricity_mm = 6.0")); // e/u0 = 30
+  const End end = run("check gear.toml");
+  EXPECT_EQ(end.code, 3);
+  EXPECT_TRUE(end.err.starts_with("strainwave: ")) << end.err;
+  EXPECT_NE(end.err.find("30"), std::string::npos) << end.err; // the offending ratio
+}
+
+TEST_F(CommandLine, CheckOfAStudyPrintsTheWholeStudy) {
+  write("gear.toml", seed);
+  write("study.toml", "kind = \"optimize\"\ngear = \"gear.toml\"\n[objective]\noutput = \"peak_force_n\"\n"
+                      "[[variable]]\npath = \"circular_spline.profile_shift\"\nlower = 2.1\nupper = 2.3\n");
+  const End end = run("check study.toml");
+  EXPECT_EQ(end.code, 0) << end.err;
+  EXPECT_NE(end.out.find("[[load_case]]\ntorque_nm = 11.5"), std::string::npos);
+  EXPECT_NE(end.out.find("goal = \"minimise\""), std::string::npos);
+}
+
+TEST_F(CommandLine, CheckOfAStudyOfAnotherKindSaysThatThisVersionHasItNot) {
+  write("study.toml", "kind = \"pareto\"\n");
+  const End end = run("check study.toml");
+  EXPECT_EQ(end.code, 2);
+  EXPECT_EQ(
+      end.err,
+      "strainwave: study.toml:1:8: kind: the kind \"pareto\" is not available in this version, which runs "
+      "\"optimize\" only\n");
+}
+
 TEST_F(CommandLine, MissingFileIsWrongInput) {
   const End end = run("check gear.toml");
   EXPECT_EQ(end.code, 2);
@@ -158,6 +198,15 @@ TEST_F(CommandLine, WrongOptionsNameTheNearest) {
                    "strainwave check");
   expect_wrong_use("schema --referenc=3", "there is no option --referenc; did you mean --reference?",
                    "strainwave schema");
+}
+
+TEST_F(CommandLine, WrongValuesOfOptionsSayWhatWasExpected) {
+  const std::string help = "strainwave analyze";
+  expect_wrong_use("analyze g.toml --torque-nm abc", "--torque-nm: expected a number, got abc", help);
+  expect_wrong_use("analyze g.toml --torque-nm", "--torque-nm: the value is missing", help);
+  expect_wrong_use("analyze g.toml --threads -1", "--threads: expected a number of at least 0, got -1", help);
+  expect_wrong_use("analyze g.toml --only backlsh",
+                   "--only: expected backlash, compliance, load, got backlsh; did you mean backlash?", help);
 }
 
 TEST_F(CommandLine, MissingAndSuperfluousArgumentsAreNamed) {

@@ -34,24 +34,29 @@ void expect_second_order(const ContactProblem& problem, double control, ContactS
                          const ContactFunctional& functional) {
   ContactSolver solver;
   const auto solve = [&](const ContactProblem& p, double c) {
-    return held == ContactSensitivity::Held::rotation ? solver.solve_at(p, c) : solver.solve_torque(p, c).value();
+    return held == ContactSensitivity::Held::rotation ? solver.solve_at(p, c)
+                                                      : solver.solve_torque(p, c).value();
   };
   const Direction direction = direction_for(problem, control);
   const ContactState state = solve(problem, control);
   const auto value = [&](double t) {
-    const ContactProblem p{problem.m + t * direction.m, problem.q + t * direction.q, problem.r + t * direction.r};
+    const ContactProblem p{problem.m + t * direction.m, problem.q + t * direction.q,
+                           problem.r + t * direction.r};
     const ContactState s = solve(p, control + t * direction.control);
     EXPECT_EQ(s.active, state.active) << "the step crosses an event: t = " << t;
     double j = functional.rotation * s.rotation;
-    if (functional.force.size()) j += functional.force.dot(s.force);
-    if (functional.gap.size()) j += functional.gap.dot(s.gap);
+    if (functional.force.size())
+      j += functional.force.dot(s.force);
+    if (functional.gap.size())
+      j += functional.gap.dot(s.gap);
     return j;
   };
   const ContactDerivative d = ContactSensitivity(problem, state, held).of(functional);
   EXPECT_TRUE(d.biactive.empty());
   double expected = d.gap.dot(direction.q) + d.radius.dot(direction.r) + d.control * direction.control;
   for (int i = 0; i < problem.size(); ++i)
-    for (int j = 0; j < problem.size(); ++j) expected += d.matrix(i, j) * direction.m(i, j);
+    for (int j = 0; j < problem.size(); ++j)
+      expected += d.matrix(i, j) * direction.m(i, j);
   double before = 0.0;
   for (int k = 0; k < 4; ++k) {
     const double t = 4e-3 * std::pow(0.5, k);
@@ -68,31 +73,35 @@ void expect_second_order(const ContactProblem& problem, double control, ContactS
 TEST(LcpDerivative, SecondOrderOnTheSeedGearAtARotation) {
   const ContactProblem problem = load_path(read_json(folder + "/load-path.json"));
   const Eigen::VectorXd weight = random_spd(28, 28, 0.0, 5).q, gap = random_spd(28, 28, 0.0, 6).q * 1e4;
-  expect_second_order(problem, 2.9e-3, ContactSensitivity::Held::rotation, {.force = weight, .gap = gap, .rotation = 2e4});
+  expect_second_order(problem, 2.9e-3, ContactSensitivity::Held::rotation,
+                      {.force = weight, .gap = gap, .rotation = 2e4});
 }
 
 TEST(LcpDerivative, SecondOrderOnTheSeedGearAtATorque) {
   const ContactProblem problem = load_path(read_json(folder + "/load-path.json"));
   const Eigen::VectorXd weight = random_spd(28, 28, 0.0, 5).q, gap = random_spd(28, 28, 0.0, 6).q * 1e4;
-  expect_second_order(problem, 3500.0, ContactSensitivity::Held::torque, {.force = weight, .gap = gap, .rotation = 2e4});
+  expect_second_order(problem, 3500.0, ContactSensitivity::Held::torque,
+                      {.force = weight, .gap = gap, .rotation = 2e4});
 }
 
 TEST(LcpDerivative, SecondOrderWithSupports) {
   const ContactProblem problem = random_spd(30, 40, 0.3, 9, 12);
   const Eigen::VectorXd weight = random_spd(30, 30, 0.0, 15).q;
-  expect_second_order(problem, 0.9, ContactSensitivity::Held::rotation, {.force = weight, .gap = {}, .rotation = 0.0});
-  expect_second_order(problem, 4.0, ContactSensitivity::Held::torque, {.force = weight, .gap = weight, .rotation = 1.0});
+  expect_second_order(problem, 0.9, ContactSensitivity::Held::rotation,
+                      {.force = weight, .gap = {}, .rotation = 0.0});
+  expect_second_order(problem, 4.0, ContactSensitivity::Held::torque,
+                      {.force = weight, .gap = weight, .rotation = 1.0});
 }
 
 TEST(LcpDerivative, TorqueByRotationIsTheTangentStiffness) {
   const ContactProblem problem = load_path(read_json(folder + "/load-path.json"));
   ContactSolver solver;
   const ContactState state = solver.solve_at(problem, 3e-3);
-  const ContactDerivative d =
-      ContactSensitivity(problem, state, ContactSensitivity::Held::rotation).of({.force = problem.r, .gap = {}, .rotation = 0.0});
+  const ContactDerivative d = ContactSensitivity(problem, state, ContactSensitivity::Held::rotation)
+                                  .of({.force = problem.r, .gap = {}, .rotation = 0.0});
   EXPECT_NEAR(d.control, state.stiffness, 1e-12 * state.stiffness);
-  const ContactDerivative inverse =
-      ContactSensitivity(problem, state, ContactSensitivity::Held::torque).of({.force = {}, .gap = {}, .rotation = 1.0});
+  const ContactDerivative inverse = ContactSensitivity(problem, state, ContactSensitivity::Held::torque)
+                                        .of({.force = {}, .gap = {}, .rotation = 1.0});
   EXPECT_NEAR(inverse.control, 1.0 / state.stiffness, 1e-12 / state.stiffness);
 }
 

@@ -15,7 +15,8 @@ using namespace contact_problems;
 const std::string folder = STRAINWAVE_TEST_REFERENCE;
 
 ContactProblem single() { // the worked example of lcp.hpp
-  return {Eigen::MatrixXd::Constant(1, 1, 1e-4), Eigen::VectorXd::Constant(1, 4e-3), Eigen::VectorXd::Constant(1, 14.5)};
+  return {Eigen::MatrixXd::Constant(1, 1, 1e-4), Eigen::VectorXd::Constant(1, 4e-3),
+          Eigen::VectorXd::Constant(1, 14.5)};
 }
 
 TEST(LcpEdge, EmptyProblemHasAnEmptySolution) {
@@ -93,7 +94,8 @@ TEST(LcpEdge, TakeUpOnThePreloadedDiscsCarriesNoToothForce) {
   const ContactProblem problem = seed_on_discs(reference, read_json(folder + "/unit-responses.json"), solver);
   const auto state = solver.solve_torque(problem, 0.0);
   // On the unloaded discs the teeth's gaps are the backlash: take-up as without discs.
-  const double expected = (vector_of(reference["backlash_mm"]).array() / problem.r.head(28).array()).minCoeff();
+  const double expected =
+      (vector_of(reference["backlash_mm"]).array() / problem.r.head(28).array()).minCoeff();
   EXPECT_NEAR(state->rotation, expected, 1e-15);
   EXPECT_EQ(state->force.head(28).cwiseAbs().maxCoeff(), 0.0);
   EXPECT_GT(state->force.tail(420).sum(), 10.0); // N, preload of the discs
@@ -108,7 +110,8 @@ TEST(LcpEdge, WrongInputIsRefused) {
   EXPECT_THROW((void)solver.solve_torque(problem, std::nan("")), std::invalid_argument);
   EXPECT_THROW((void)solver.solve_at(problem, std::nan("")), std::invalid_argument);
   EXPECT_THROW((void)solver.solve_at(problem, 0.0, ActiveSet(3, 1)), std::invalid_argument);
-  EXPECT_THROW((void)solver.trace(problem, {.start_rotation = 1.0, .end_rotation = 0.0}), std::invalid_argument);
+  EXPECT_THROW((void)solver.trace(problem, {.start_rotation = 1.0, .end_rotation = 0.0}),
+               std::invalid_argument);
   problem.q[0] = std::nan("");
   EXPECT_THROW((void)solver.solve_at(problem, 0.0), std::invalid_argument);
   problem = single();
@@ -120,7 +123,8 @@ TEST(LcpEdge, WrongInputIsRefused) {
 
 TEST(LcpEdge, IndefiniteOrUndefinedMatrixNamesTheIndex) {
   ContactSolver solver;
-  ContactProblem problem{Eigen::MatrixXd::Identity(3, 3), Eigen::VectorXd::Constant(3, -1.0), Eigen::VectorXd::Ones(3)};
+  ContactProblem problem{Eigen::MatrixXd::Identity(3, 3), Eigen::VectorXd::Constant(3, -1.0),
+                         Eigen::VectorXd::Ones(3)};
   problem.m(2, 2) = -1.0;
   try {
     (void)solver.solve_at(problem, 0.0);
@@ -162,6 +166,9 @@ TEST(LcpEdge, CertificateFindsOnePoisonedForce) {
   EXPECT_EQ(certify(problem, poisoned).worst, static_cast<int>(open));
   poisoned = good;
   poisoned.torque *= 1.0 + 1e-9;
+  EXPECT_FALSE(certify(problem, poisoned).holds());
+  poisoned = good;
+  poisoned.force[loaded] = std::nan("");
   EXPECT_FALSE(certify(problem, poisoned).holds());
 }
 

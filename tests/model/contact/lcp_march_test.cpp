@@ -26,16 +26,20 @@ TEST(LcpMarch, ConvergesToTheEventPathWithFirstOrder) {
     for (const PathEvent& event : path.events()) {
       const double error = std::abs(marched.torque_at(event.rotation) - event.torque);
       // A chord of width h across a kink: jump × h / 4 at most.
-      EXPECT_LE(error, 0.25 * least * std::abs(event.stiffness_after - event.stiffness_before) * (1.0 + 1e-6) + 1e-9);
+      EXPECT_LE(error,
+                0.25 * least * std::abs(event.stiffness_after - event.stiffness_before) * (1.0 + 1e-6) +
+                    1e-9);
       square += error * error;
     }
     const double rms = std::sqrt(square / static_cast<double>(path.events().size()));
     std::printf("    least step %.0e  error %.3e N mm  order %.2f  steps %d\n", least, rms,
                 before > 0.0 ? std::log10(before / rms) : 0.0, marched.tried);
     before = rms;
-    if (first == 0.0) first = rms;
+    if (first == 0.0)
+      first = rms;
   }
-  // Where a kink falls inside its last step is chance, a factor of a few either way: the order over all four decades.
+  // Where a kink falls inside its last step is chance, a factor of a few either way: the order over all four
+  // decades.
   EXPECT_NEAR(std::log10(first / before) / 4.0, 1.0, 0.25);
 }
 
@@ -63,7 +67,8 @@ TEST(LcpMarch, EndsOnTheDirectSolution) {
   ContactSolver solver;
   const March marched = march(problem, 0.0, 0.02, {.step = 1e-3, .least_step = 1e-5}, solver);
   EXPECT_EQ(marched.last.force, solver.solve_at(problem, 0.02).force);
-  EXPECT_THROW((void)march(problem, 0.0, 0.02, {.step = 1e-3, .least_step = 0.0}, solver), std::invalid_argument);
+  EXPECT_THROW((void)march(problem, 0.0, 0.02, {.step = 1e-3, .least_step = 0.0}, solver),
+               std::invalid_argument);
 }
 
 } // namespace

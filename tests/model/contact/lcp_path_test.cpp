@@ -12,7 +12,8 @@ using namespace contact_problems;
 
 const std::string folder = STRAINWAVE_TEST_REFERENCE;
 
-/// Largest difference of forces between the path and direct solves at 1000 rotations, relative to the largest force there.
+/// Largest difference of forces between the path and direct solves at 1000 rotations, relative to the largest
+/// force there.
 double largest_difference(const ContactProblem& problem, const EventPath& path, double from, double to) {
   ContactSolver solver;
   double worst = 0.0;
@@ -45,8 +46,8 @@ TEST(LcpPath, EqualsDirectSolvesOnAWholeCircleOfTeeth) {
 
 TEST(LcpPath, EqualsDirectSolvesWithTheDiscsInTheProblem) {
   ContactSolver solver;
-  const ContactProblem problem =
-      seed_on_discs(read_json(folder + "/load-path.json"), read_json(folder + "/unit-responses.json"), solver);
+  const ContactProblem problem = seed_on_discs(read_json(folder + "/load-path.json"),
+                                               read_json(folder + "/unit-responses.json"), solver);
   const EventPath path = solver.trace(problem, {.end_rotation = 4.5e-3});
   EXPECT_LT(largest_difference(problem, path, 0.0, 4.5e-3), 1e-12);
 }
@@ -66,11 +67,11 @@ TEST(LcpPath, SymmetricGapsCloseExactlyInPairs) {
 }
 
 TEST(LcpPath, TorqueOnTheDiscsIsTheIndependentColumn) {
-  // physics: unilateral, linearised gap, one contact point at tip height: N·m at four rotations, peak force at the third,
-  // as printed there.
+  // physics: unilateral, linearised gap, one contact point at tip height: N·m at four rotations, peak force
+  // at the third, as printed there.
   ContactSolver solver;
-  const ContactProblem problem =
-      seed_on_discs(read_json(folder + "/load-path.json"), read_json(folder + "/unit-responses.json"), solver);
+  const ContactProblem problem = seed_on_discs(read_json(folder + "/load-path.json"),
+                                               read_json(folder + "/unit-responses.json"), solver);
   const EventPath path = solver.trace(problem, {.end_rotation = 4.5e-3});
   EXPECT_NEAR(2e-3 * path.torque_at(1e-3), 2.79, 0.005);
   EXPECT_NEAR(2e-3 * path.torque_at(2e-3), 5.81, 0.005);
@@ -81,8 +82,8 @@ TEST(LcpPath, TorqueOnTheDiscsIsTheIndependentColumn) {
 
 TEST(LcpPath, TorqueNeverFallsAndStiffnessJumpsAsTheKindOfEventSays) {
   ContactSolver solver;
-  const ContactProblem problem =
-      seed_on_discs(read_json(folder + "/load-path.json"), read_json(folder + "/unit-responses.json"), solver);
+  const ContactProblem problem = seed_on_discs(read_json(folder + "/load-path.json"),
+                                               read_json(folder + "/unit-responses.json"), solver);
   const EventPath path = solver.trace(problem, {.end_torque = 6000.0});
   EXPECT_EQ(path.end(), EventPath::End::torque);
   EXPECT_EQ(path.end_torque(), 6000.0);
@@ -93,8 +94,10 @@ TEST(LcpPath, TorqueNeverFallsAndStiffnessJumpsAsTheKindOfEventSays) {
     torque = event.torque;
     rotation = event.rotation;
     // r · M_AA⁻¹ r grows with the set: closing stiffens, opening softens.
-    if (event.change_count != 1) continue;
-    const double jump = (event.stiffness_after - event.stiffness_before) / path.events().back().stiffness_after;
+    if (event.change_count != 1)
+      continue;
+    const double jump =
+        (event.stiffness_after - event.stiffness_before) / path.events().back().stiffness_after;
     EXPECT_GE(path.changes(event)[0].closes ? jump : -jump, -1e-12);
   }
 }
@@ -102,15 +105,16 @@ TEST(LcpPath, TorqueNeverFallsAndStiffnessJumpsAsTheKindOfEventSays) {
 TEST(LcpPath, TorqueControlOnThePathEqualsTheDirectSolve) {
   ContactSolver solver;
   const ContactProblem linear = load_path(read_json(folder + "/load-path.json"));
-  const ContactProblem discs =
-      seed_on_discs(read_json(folder + "/load-path.json"), read_json(folder + "/unit-responses.json"), solver);
+  const ContactProblem discs = seed_on_discs(read_json(folder + "/load-path.json"),
+                                             read_json(folder + "/unit-responses.json"), solver);
   for (const ContactProblem* problem : {&linear, &discs}) {
     const EventPath path = solver.trace(*problem, {.end_torque = 6000.0});
     for (int i = 1; i <= 60; ++i) {
       const double torque = 100.0 * i;
       const auto direct = solver.solve_torque(*problem, torque);
       const ContactState on_path = path.at_torque(torque);
-      EXPECT_LT((direct->force - on_path.force).cwiseAbs().maxCoeff(), 1e-12 * direct->force.maxCoeff()) << torque;
+      EXPECT_LT((direct->force - on_path.force).cwiseAbs().maxCoeff(), 1e-12 * direct->force.maxCoeff())
+          << torque;
       EXPECT_NEAR(on_path.rotation, direct->rotation, 1e-12 * direct->rotation) << torque;
       EXPECT_NEAR(direct->torque, torque, 1e-12 * torque);
       EXPECT_NEAR(on_path.stiffness, direct->stiffness, 1e-9 * direct->stiffness) << torque;
@@ -160,6 +164,30 @@ TEST(LcpPath, TwoEqualLobesUnfoldedGiveTheFoldedPath) {
     EXPECT_NEAR(unfolded.events()[k].rotation, folded.events()[k].rotation, 1e-15);
   }
   EXPECT_NEAR(unfolded.end_torque(), 2.0 * folded.end_torque(), 1e-11 * unfolded.end_torque());
+}
+
+TEST(LcpPath, TwoEqualLobesOnTheDiscsGiveTheFoldedPath) {
+  ContactSolver solver;
+  const auto loads = read_json(folder + "/load-path.json"),
+             responses = read_json(folder + "/unit-responses.json");
+  const ContactProblem one = seed_on_discs(loads, responses, solver),
+                       two = seed_on_discs(loads, responses, solver, 2);
+  const EventPath folded = solver.trace(one, {.end_torque = 3500.0});
+  const EventPath unfolded = solver.trace(two, {.end_torque = 7000.0});
+  ASSERT_EQ(unfolded.events().size(), folded.events().size());
+  // Condition of the closed block about 1e4: events agree to 1e4 ε with room, forces to 1e-12 of the largest.
+  const double rounding = 2e-11 * folded.end_rotation();
+  for (std::size_t k = 0; k < folded.events().size(); ++k) {
+    const PathEvent &a = folded.events()[k], &b = unfolded.events()[k];
+    EXPECT_EQ(b.change_count, 2 * a.change_count) << k;
+    EXPECT_NEAR(b.rotation, a.rotation, rounding) << k;
+    EXPECT_NEAR(b.stiffness_after, 2.0 * a.stiffness_after, 1e-9 * b.stiffness_after) << k;
+  }
+  EXPECT_NEAR(unfolded.end_rotation(), folded.end_rotation(), rounding);
+  const ContactState state = unfolded.at_torque(7000.0), direct = solver.solve_torque(two, 7000.0).value();
+  EXPECT_LT((state.force.head(28) - state.force.segment(28, 28)).cwiseAbs().maxCoeff(),
+            1e-12 * state.force.maxCoeff());
+  EXPECT_LT((state.force - direct.force).cwiseAbs().maxCoeff(), 1e-12 * direct.force.maxCoeff());
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// The solver against numbers of other programs: the seed gear's loaded states, matrices on which plain active sets cycle,
-// Fathi's matrix.
+// The solver against numbers of other programs: the seed gear's loaded states, matrices on which plain active
+// sets cycle, Fathi's matrix.
 
 #include "tests/model/contact/lcp_problems.hpp"
 
@@ -51,7 +51,8 @@ bool plain_active_set_cycles(const ContactProblem& problem) {
   while (seen.insert(closed).second) {
     std::vector<int> a;
     for (int i = 0; i < n; ++i)
-      if (closed[static_cast<std::size_t>(i)]) a.push_back(i);
+      if (closed[static_cast<std::size_t>(i)])
+        a.push_back(i);
     const Eigen::VectorXd x = Eigen::MatrixXd(problem.m(a, a)).ldlt().solve(-problem.q(a));
     Eigen::VectorXd z = Eigen::VectorXd::Zero(n);
     z(a) = x;
@@ -59,7 +60,8 @@ bool plain_active_set_cycles(const ContactProblem& problem) {
     std::vector<bool> next = closed;
     for (int i = 0; i < n; ++i)
       next[static_cast<std::size_t>(i)] = closed[static_cast<std::size_t>(i)] ? z[i] > 0.0 : gap[i] < 0.0;
-    if (next == closed) return false;
+    if (next == closed)
+      return false;
     closed = next;
   }
   return true;

@@ -92,6 +92,9 @@ const std::vector<Golden>& goldens() {
        "\"hydraulic\""},
       {"missing table file", "table_file = \"\"", "table_file = \"/no/such/curve.txt\"",
        "gear.toml:42:14: wave_generator.table_file: there is no file /no/such/curve.txt"},
+      {"table without its file", shape_line, "shape = \"table\"",
+       "gear.toml:35:9: wave_generator.shape: the shape \"table\" needs table_file, the file that holds the "
+       "curve"},
       {"key given twice", module_line, "module_mm = 0.2\nmodule_mm = 0.3 ",
        "gear.toml:14:1: flexspline.module_mm: the key is given twice (first in line 13); keep one of the "
        "two"},

@@ -1,0 +1,135 @@
+#pragma once
+// Study files: TOML that names a gear, what may vary, what is wanted and how to search. This version runs
+// kind = "optimize"; the other kinds of studies are known by name and refused with a sentence.
+//
+//     kind = "optimize"
+//     gear = "seed.toml"                          # relative to the study file
+//     [override]                                  # any key of the gear, by its path
+//     "contact.lobes" = 2
+//     [[load_case]]                               # default: the gear's [load]
+//     torque_nm = 7.0
+//     [[variable]]
+//     path = "wave_generator.max_radial_deformation_mm"
+//     lower = 0.19
+//     upper = 0.21
+//     link = { path = "wave_generator.eccentricity_mm", ratio = 3.0 }   # e = 3 u0 moves along
+//     [objective]
+//     output = "peak_force_n"
+//     [[constraint]]
+//     output = "rotation_rad"
+//     max_ratio_to_baseline = 1.05
+//     [method]
+//     budget = 200
+//     [reduced]                                   # what --reduced changes: keys of this file or of the gear
+//     "method.budget" = 20
+//
+// Every fault of a file is reported at once (FileError), with the same words as in gear files.
+
+#include "model/gear/fields.hpp"
+#include "model/gear_file/file_error.hpp"
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace strainwave {
+
+enum class StudyKind { optimize };
+
+/// Exactly one of torque and rotation is given.
+struct LoadCase {
+  std::optional<double> torque_nm;
+  std::optional<double> rotation_rad;
+  int phases = 1; ///< meshing positions over one pitch
+  Direction direction = Direction::drive;
+};
+
+/// Another number of the gear that moves with a variable: number at `path` = ratio · variable.
+struct VariableLink {
+  std::string path;
+  double ratio = 1.0;
+};
+
+struct StudyVariable {
+  std::string path; ///< a continuous number of the gear, or an item of a list ("….spline_um[3]")
+  double lower = 0.0;
+  double upper = 0.0;
+  std::optional<double> start; ///< within the bounds; absent: the gear's value, moved into the bounds
+  std::optional<double> scale; ///< typical change, > 0; absent: upper − lower
+  std::optional<VariableLink> link;
+};
+
+enum class Goal { minimise, maximise };
+
+struct StudyObjective {
+  std::string output;
+  Goal goal = Goal::minimise;
+};
+
+/// At least one limit is given.
+struct StudyConstraint {
+  std::string output;
+  std::optional<double> min;
+  std::optional<double> max;
+  std::optional<double> max_ratio_to_baseline; ///< times the baseline's value
+};
+
+struct StudyMethod {
+  std::string name; ///< empty: the default of the kind
+  int budget = 200; ///< evaluations
+  double tolerance = 1e-4;
+  int starts = 1;
+};
+
+struct StudyLimits {
+  double failure_share = 0.01; ///< of the evaluations that may fail
+};
+
+/// One line of [override] or [reduced].
+struct StudyChange {
+  std::string path;
+  FieldValue value;
+};
+
+struct StudyFile {
+  std::string file;
+  StudyKind kind = StudyKind::optimize;
+  std::string gear_file; ///< absolute
+  int seed = 1;
+  bool reduced = false;
+  Gear gear; ///< the gear's file with [override] applied (and [reduced], if asked for): the baseline
+  std::vector<LoadCase> load_cases;     ///< never empty
+  std::vector<StudyVariable> variables; ///< never empty
+  StudyObjective objective;
+  std::vector<StudyConstraint> constraints;
+  StudyMethod method;
+  StudyLimits limits;
+  std::vector<StudyChange> overrides; ///< already in `gear`
+  std::vector<StudyChange>
+      reduced_changes; ///< empty if `reduced`: they are applied, those of the gear to `overrides`
+};
+
+/// What the reader cannot know by itself; an empty list accepts every name.
+struct StudyVocabulary {
+  std::span<const std::string_view> outputs; ///< of a forward result that may be objective or constraint
+  std::span<const std::string_view> methods;
+};
+
+/// Throws FileError (of the study file, or of the gear file that it names), std::system_error.
+StudyFile load_study(const std::string& path, bool reduced = false, const StudyVocabulary& vocabulary = {});
+
+/// `name` stands in messages; the gear file is looked for beside it.
+StudyFile parse_study(std::string_view text, const std::string& name, bool reduced = false,
+                      const StudyVocabulary& vocabulary = {});
+
+/// Does this TOML text describe a study (and not a gear)? False for what is no TOML.
+bool is_study_text(std::string_view text);
+
+/// The study as a file with every default filled in; it reads back to the same study. What `reduced` changed
+/// stays changed, so the printed file needs no --reduced.
+std::string write_study(const StudyFile& study);
+
+} // namespace strainwave
