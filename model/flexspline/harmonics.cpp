@@ -1,13 +1,13 @@
 #include "model/flexspline/harmonics.hpp"
 
 #include "model/flexspline/blas.hpp"
+#include "model/flexspline/sparse.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
-#include "model/flexspline/sparse.hpp"
 
 #include <fmt/format.h>
 

@@ -91,6 +91,36 @@ public:
     return std::move(result_);
   }
 
+  Outcome<ContactStates> contact_states() {
+    if (auto failure = stages()) return *failure;
+    const auto model = phase_model(0.0);
+    if (!model) return model.failure();
+    const auto assembled = assembly(0.0);
+    if (!assembled) return assembled.failure();
+    const RingCompliance& ring = ring_->compliance;
+    ContactStates result{.request = response_request(gear_), .states = {}, .warnings = result_.warnings};
+    result.states.push_back(
+        contact_forces("assembled", ring, **assembled, (*assembled)->force_components(), {}, {}));
+    ContactSolver solver;
+    const auto add = [&](const std::string& name, const Outcome<PhaseLoad>& load) -> std::optional<Failure> {
+      if (!load) return load.failure();
+      result.states.push_back(
+          contact_forces(name, ring, **assembled, load->wall_force, (*model)->points(), load->force_n));
+      result.states.back().torque_nm = load->torque_nm;
+      result.states.back().rotation_rad = load->rotation_rad;
+      return std::nullopt;
+    };
+    for (const double torque : gear_.load.torque_nm) {
+      if (auto failure = add(fmt::format("loaded_{:g}Nm", torque), (*model)->at_torque(torque, solver))) return *failure;
+    }
+    for (const double rotation : gear_.load.rotation_rad) {
+      if (auto failure = add(fmt::format("loaded_{:g}rad", rotation), (*model)->at_rotation(rotation, solver))) {
+        return *failure;
+      }
+    }
+    return result;
+  }
+
 private:
   std::optional<Failure> stages() {
     if (auto contradiction = find_contradiction(gear_)) return contradiction;
@@ -312,19 +342,21 @@ private:
     return std::nullopt;
   }
 
+  Outcome<std::shared_ptr<const PhaseModel>> phase_model(double phase) {
+    if (const auto found = phases_.find(phase); found != phases_.end()) return found->second;
+    auto points = loaded_points(phase);
+    if (!points) return points.failure();
+    auto assembled = assembly(phase);
+    if (!assembled) return assembled.failure();
+    auto model = std::make_shared<const PhaseModel>(gear_.contact, ring_->compliance, *surface_, *assembled,
+                                                    std::move(points).value());
+    phases_.emplace(phase, model);
+    return model;
+  }
+
   std::optional<Failure> load() {
     StageClock clock(result_, "load");
-    const PhaseSource source = [&](double phase) -> Outcome<std::shared_ptr<const PhaseModel>> {
-      if (const auto found = phases_.find(phase); found != phases_.end()) return found->second;
-      auto points = loaded_points(phase);
-      if (!points) return points.failure();
-      auto assembled = assembly(phase);
-      if (!assembled) return assembled.failure();
-      auto model = std::make_shared<const PhaseModel>(gear_.contact, ring_->compliance, *surface_, *assembled,
-                                                      std::move(points).value());
-      phases_.emplace(phase, model);
-      return model;
-    };
+    const PhaseSource source = [&](double phase) { return phase_model(phase); };
     if (auto failure = solve_load_cases(gear_, source, result_)) return failure;
     clock.done(StageStatus::computed);
     if (!result_.certificate->holds()) {
@@ -352,6 +384,10 @@ ForwardModel::ForwardModel(ForwardOptions options) : state_(std::make_unique<Sta
 ForwardModel::~ForwardModel() = default;
 
 ForwardResult ForwardModel::analyze(const Gear& gear, Want want) { return Analysis(*state_, gear, want).run(); }
+
+Outcome<ContactStates> ForwardModel::contact_states(const Gear& gear) {
+  return Analysis(*state_, gear, Want::compliance).contact_states();
+}
 
 bool Certificate::holds() const {
   return complementarity <= 1e-9 && min_gap_um >= -1e-6 && min_force_n >= -1e-9 && reciprocity <= 1e-10 &&

@@ -8,6 +8,7 @@
 // One ForwardModel may be used by several threads; analyses share what they have computed. Results depend on the gear
 // alone, never on what was analysed before.
 
+#include "model/forward/contact_forces.hpp"
 #include "model/forward/result.hpp"
 
 #include <filesystem>
@@ -30,6 +31,10 @@ public:
   /// Never throws for a gear that cannot be computed: status and message say why. Throws std::system_error and
   /// std::bad_alloc for disk and memory.
   ForwardResult analyze(const Gear& gear, Want want = Want::load);
+
+  /// The contact forces of the assembled cup and of every load of the gear, at phase 0 in the drive direction; reuses
+  /// what analyses have computed.
+  Outcome<ContactStates> contact_states(const Gear& gear);
 
   struct State; ///< what analyses share; of forward.cpp only
 

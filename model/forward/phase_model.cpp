@@ -159,6 +159,11 @@ Outcome<PhaseModel::Solved> PhaseModel::solve_selection(const Selection& selecti
     solved.state = exact->state;
   }
   if (solved.wall_force.size() > 0) load.disc_force_n = wall_resultant(assembled_->stations, solved.wall_force)(0);
+  load.wall_force = contact_.fidelity == Fidelity::linear
+                        ? Eigen::MatrixX2d(assembled_->force_components() +
+                                           frozen_reaction(ring_, *assembled_, selection.load.points,
+                                                           solved.state.force.head(selection.load.point_count)))
+                        : solved.wall_force;
   load.rotation_rad = solved.state.rotation;
   load.torque_nm = 1e-3 * selection.load.lobes * solved.state.torque;
   load.tangent_nm_per_rad = 1e-3 * selection.load.lobes * solved.state.stiffness;

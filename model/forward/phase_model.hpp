@@ -24,6 +24,7 @@ struct PhaseLoad {
   std::vector<double> force_n;
   std::vector<double> gap_um;  ///< loaded, along the arc; 0 where closed
   double disc_force_n = 0.0;   ///< 0 for fidelity linear
+  Eigen::MatrixX2d wall_force; ///< (radial, circumferential) at the assembly's stations, N
   double gap_correction_rotation_rad = 0.0;
   double gap_correction_force_n = 0.0;
   double exact_gap_residual_um = 0.0;
