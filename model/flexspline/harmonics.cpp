@@ -8,7 +8,6 @@
 #include <numbers>
 #include <stdexcept>
 
-
 #include <fmt/format.h>
 
 namespace strainwave {
@@ -64,7 +63,7 @@ HarmonicSolver::HarmonicSolver(const SectorMesh& mesh, const Material& material,
         odd(p, q) = sign(p) > 0.0 ? back - across : across - back;
       }
     }
-  if (unevenness > 1e-9 * scale)
+  if (unevenness > 1e-7 * scale)
     throw std::logic_error(fmt::format("the sector is not its own mirror image (relative difference {:.1e})",
                                        unevenness / scale));
 }

@@ -61,8 +61,9 @@ std::optional<Failure> flaw(const ResponseRequest& r) {
   return {};
 }
 
-/// Stiffness of thin walls falls with the cube of their thickness and that of a nearly incompressible material grows
-/// beyond bounds; double precision ends near a spread of 10^15. Names the number that spreads it most.
+/// Stiffness of thin walls falls with the cube of their thickness and that of a nearly incompressible
+/// material grows beyond bounds; double precision ends near a spread of 10^15. Names the number that spreads
+/// it most.
 Failure ill_conditioned(const ResponseRequest& r) {
   const Flexspline& f = r.flexspline;
   struct Suspect {
@@ -79,12 +80,15 @@ Failure ill_conditioned(const ResponseRequest& r) {
       {"flexspline.boss_radius_mm", f.boss_radius_mm, thin(f.boss_radius_mm)},
       {"flexspline.face_width_mm", f.face_width_mm, thin(f.face_width_mm)},
       {"flexspline.cup_length_mm", f.cup_length_mm, std::pow(f.cup_length_mm / radius, 3)}};
-  const Suspect& worst = *std::max_element(std::begin(suspects), std::end(suspects),
-                                           [](const Suspect& a, const Suspect& b) { return a.spread < b.spread; });
-  return {Status::ill_conditioned,
-          fmt::format("the flexspline's finite elements cannot be solved in double precision: the stiffness is not positive "
-                      "definite to rounding; most likely {} {} is too extreme for a cup of neutral_radius_mm {}",
-                      worst.name, worst.value, radius)};
+  const Suspect& worst =
+      *std::max_element(std::begin(suspects), std::end(suspects),
+                        [](const Suspect& a, const Suspect& b) { return a.spread < b.spread; });
+  return {
+      Status::ill_conditioned,
+      fmt::format("the flexspline's finite elements cannot be solved in double precision: the stiffness is "
+                  "not positive "
+                  "definite to rounding; most likely {} {} is too extreme for a cup of neutral_radius_mm {}",
+                  worst.name, worst.value, radius)};
 }
 
 /// Half width of the wall hats in z.
@@ -188,7 +192,8 @@ Outcome<UnitResponses> unit_responses(const ResponseRequest& request, int thread
     } catch (const NotPositiveStiffness&) {
       return ill_conditioned(request);
     }
-    if (!std::all_of(plan.layout.data.begin(), plan.layout.data.end(), [](double g) { return std::isfinite(g); }))
+    if (!std::all_of(plan.layout.data.begin(), plan.layout.data.end(),
+                     [](double g) { return std::isfinite(g); }))
       return ill_conditioned(request);
     return std::move(plan.layout);
   };
