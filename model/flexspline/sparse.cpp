@@ -1,6 +1,7 @@
 #include "model/flexspline/sparse.hpp"
 
 #include "model/flexspline/blas.hpp"
+#include "model/gear/memory.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -32,6 +33,8 @@ struct SparseCholesky::Content {
   void check(const char* what) const {
     if (common.status == CHOLMOD_OUT_OF_MEMORY)
       throw std::bad_alloc();
+    if (common.status == CHOLMOD_TOO_LARGE)
+      throw OutOfMemory("the factor of the stiffness matrix has more than 2^31 numbers; take a coarser [mesh]");
     if (common.status == CHOLMOD_NOT_POSDEF)
       throw NotPositiveStiffness(fmt::format("pivot {} of {} of the sector's stiffness is not positive",
                                              factor ? factor->minor + 1 : 0, factor ? factor->n : 0));

@@ -66,9 +66,12 @@ WaveGeneratorResult describe(const NeutralCurve& curve) {
           .shape = std::string(choice_name(curve.shape()))};
 }
 
-/// What this version cannot do, as the status not_available.
-std::optional<Failure> find_unavailable(const Gear& gear, Want want) {
-  if (want == Want::backlash) return std::nullopt;
+/// Rows of the mesh on which the wall's responses are known stand this far apart.
+double row_spacing(const Gear& gear) { return gear.flexspline.face_width_mm / gear.mesh.along_face; }
+
+} // namespace
+
+std::optional<Failure> find_unavailable(const Gear& gear) {
   const auto refuse = [](std::string sentence) { return Failure{Status::not_available, std::move(sentence)}; };
   const Contact& c = gear.contact;
   if (c.fidelity == Fidelity::nonlinear || c.assembly == AssemblyModel::nonlinear) {
@@ -82,8 +85,17 @@ std::optional<Failure> find_unavailable(const Gear& gear, Want want) {
   if (gear.wave_generator.shape == WaveGeneratorShape::four_force && c.fidelity != Fidelity::linear) {
     return refuse("a four_force wave generator has no surface to lift off from; use contact.fidelity = \"linear\"");
   }
+  const double overhang = 0.5 * (gear.wave_generator.contact_width_mm - gear.flexspline.face_width_mm);
+  if (overhang > row_spacing(gear)) {
+    return refuse(fmt::format("wave_generator.contact_width_mm {} reaches {} mm past both ends of face_width_mm {}; the wall's "
+                              "compliance is known under the teeth and {} mm (one element) beyond",
+                              gear.wave_generator.contact_width_mm, overhang, gear.flexspline.face_width_mm,
+                              row_spacing(gear)));
+  }
   return std::nullopt;
 }
+
+namespace {
 
 /// The ring keeps the responses that it refers to alive.
 struct Ring {
@@ -91,9 +103,14 @@ struct Ring {
   RingCompliance compliance;
 };
 
-/// Rows across the discs where the wall may touch: both edges, which carry nearly all of the force, and the middle.
-std::vector<double> contact_rows(const Flexspline& fs, const WaveGenerator& wg) {
+/// Rows across the discs where the wall may touch: both edges, which carry nearly all of the force, and the middle. Rows
+/// much closer than those of the mesh say the same thing three times, and their compliance is singular to rounding like
+/// (width / row spacing)⁴: narrow discs have the middle alone.
+std::vector<double> contact_rows(const Gear& gear) {
+  const Flexspline& fs = gear.flexspline;
+  const WaveGenerator& wg = gear.wave_generator;
   const double middle = fs.cup_length_mm - fs.front_clearance_mm - 0.5 * fs.face_width_mm;
+  if (wg.contact_width_mm < 0.1 * row_spacing(gear)) return {middle};
   return {middle - 0.5 * wg.contact_width_mm, middle, middle + 0.5 * wg.contact_width_mm};
 }
 
@@ -138,7 +155,7 @@ public:
   }
 
   ForwardResult run() {
-    const auto failure = stages();
+    const auto failure = guarded_stages();
     for (const char* name : {"kinematics", "backlash", "flexspline", "assembly", "compliance", "load"}) {
       const bool there = std::any_of(result_.stages.begin(), result_.stages.end(),
                                      [&](const Stage& stage) { return stage.name == name; });
@@ -152,9 +169,25 @@ public:
   }
 
 private:
+  /// A compliance that is not positive definite is one that rounding has eaten up: data of this gear, not our bug.
+  std::optional<Failure> guarded_stages() {
+    try {
+      return stages();
+    } catch (const NotPositiveDefinite& error) {
+      return Failure{Status::ill_conditioned,
+                     fmt::format("the contact of flexspline and wave generator cannot be solved in double precision: its "
+                                 "compliance has the pivot {:.3g} mm/N (unknown {}); a thickness or contact_width_mm {} is too "
+                                 "small, or youngs_modulus_mpa {} or poisson_ratio {} too extreme, for this cup and mesh",
+                                 error.pivot, error.index, gear_.wave_generator.contact_width_mm,
+                                 gear_.material.youngs_modulus_mpa, gear_.material.poisson_ratio)};
+    }
+  }
+
   std::optional<Failure> stages() {
     if (auto contradiction = find_contradiction(gear_)) return contradiction;
-    if (auto unavailable = find_unavailable(gear_, want_)) return unavailable;
+    if (want_ != Want::backlash) {
+      if (auto unavailable = find_unavailable(gear_)) return unavailable;
+    }
     if (auto failure = kinematics()) return failure;
     if (auto failure = first_backlash()) return failure;
     if (want_ == Want::backlash) return std::nullopt;
@@ -227,7 +260,7 @@ private:
     if (!*responses) return responses->failure();
 
     fold_ = gear_.contact.lobes == 2 && gear_.flexspline.teeth % 2 == 0;
-    const std::vector<double> rows = contact_rows(gear_.flexspline, gear_.wave_generator);
+    const std::vector<double> rows = contact_rows(gear_);
     ring_key_ = key;
     for (const double row : rows) ring_key_.add(row);
     ring_key_.add(fold_ ? 1.0 : 0.0);
@@ -275,8 +308,9 @@ private:
                        .contact_lo_deg = a.contact_lo_rad / degree,
                        .contact_hi_deg = a.contact_hi_rad / degree,
                        .newton_steps = a.newton_steps};
+    const int middle_row = static_cast<int>(ring_->compliance.rows_mm().size() / 2);
     for (std::size_t i = 0; i < a.stations.size(); ++i) { // phase 0: a station stands on the major axis
-      if (a.stations[i].row == 1 && std::abs(a.stations[i].phi_rad) < 1e-9) {
+      if (a.stations[i].row == middle_row && std::abs(a.stations[i].phi_rad) < 1e-9) {
         out.radial_deformation_mm = a.displacement(static_cast<Eigen::Index>(i), 0);
       }
     }
@@ -343,16 +377,19 @@ private:
       if (!assembled) return assembled.failure();
       auto model = std::make_shared<const PhaseModel>(gear_.contact, ring_->compliance, *surface_, *assembled,
                                                       std::move(teeth).value());
+      if (phases_.size() >= most_phases_kept) phases_.clear(); // some MB each
       phases_.emplace(phase, model);
       return model;
     };
     if (auto failure = solve_load_cases(gear_, source, result_)) return failure;
     clock.done(StageStatus::computed);
-    if (!result_.certificate->holds()) {
-      return Failure{Status::certificate_failed, "the residuals of the contact solution are too large; see the certificate"};
+    if (const auto flaw = result_.certificate->find_flaw()) {
+      return Failure{Status::certificate_failed, "the certificate does not hold: " + *flaw};
     }
     return std::nullopt;
   }
+
+  static constexpr std::size_t most_phases_kept = 64;
 
   ForwardModel::State& state_;
   const Gear& gear_;
@@ -372,9 +409,23 @@ ForwardModel::~ForwardModel() = default;
 
 ForwardResult ForwardModel::analyze(const Gear& gear, Want want) { return Analysis(*state_, gear, want).run(); }
 
-bool Certificate::holds() const {
-  return complementarity <= 1e-9 && min_gap_um >= -1e-6 && min_force_n >= -1e-9 && reciprocity <= 1e-10 &&
-         equilibrium <= 1e-9 && exact_gap_residual_um <= 1e-6;
+std::optional<std::string> Certificate::find_flaw() const {
+  struct Limit {
+    const char* name;
+    double value, limit;
+  };
+  const Limit limits[] = {{"complementarity", complementarity, 1e-9},
+                          {"min_gap_um", -min_gap_um, 1e-6 + rounding_um},
+                          {"min_force_n", -min_force_n, 1e-9},
+                          {"reciprocity", reciprocity, 1e-10},
+                          {"equilibrium", equilibrium, 1e-9},
+                          {"exact_gap_residual_um", exact_gap_residual_um, 1e-6 + rounding_um}};
+  for (const Limit& one : limits) {
+    if (one.value <= one.limit) continue;
+    if (std::isnan(one.value)) return fmt::format("{} is undefined, at most {:.2g} is allowed", one.name, one.limit);
+    return fmt::format("{} is off by {:.3g}, at most {:.2g} is allowed", one.name, one.value, one.limit);
+  }
+  return std::nullopt;
 }
 
 } // namespace strainwave

@@ -127,14 +127,23 @@ private:
 
   void note(const PhaseLoad& load) {
     Certificate& c = *result_.certificate;
-    c.complementarity = std::max(c.complementarity, load.certificate.complementarity);
-    c.min_gap_um = std::min(c.min_gap_um, 1e3 * load.certificate.min_gap);
-    c.min_force_n = std::min(c.min_force_n, load.certificate.min_force);
-    c.equilibrium = std::max(c.equilibrium, load.certificate.torque_error);
-    if (load.certificate.gap_scale > 0.0) {
-      c.equilibrium = std::max(c.equilibrium, load.recomputed_gap_um * 1e-3 / load.certificate.gap_scale);
-    }
-    c.exact_gap_residual_um = std::max(c.exact_gap_residual_um, load.exact_gap_residual_um);
+    // NaN counts as the worst of all; std::max would lose it.
+    const auto raise = [](double& worst, double value) {
+      if (!(value <= worst) && !std::isnan(worst)) worst = value;
+    };
+    const auto lower = [](double& worst, double value) {
+      if (!(value >= worst) && !std::isnan(worst)) worst = value;
+    };
+    const ContactCertificate& solved = load.certificate;
+    // Gaps are differences of displacements: measured by the larger of both.
+    const double scale = std::max(solved.gap_scale, load.largest_displacement_mm);
+    raise(c.complementarity, scale > 0.0 ? solved.complementarity * (solved.gap_scale / scale) : solved.complementarity);
+    lower(c.min_gap_um, 1e3 * solved.min_gap);
+    lower(c.min_force_n, solved.min_force);
+    raise(c.equilibrium, solved.torque_error);
+    if (scale > 0.0) raise(c.equilibrium, load.recomputed_gap_um * 1e-3 / scale);
+    raise(c.exact_gap_residual_um, load.exact_gap_residual_um);
+    raise(c.rounding_um, load.rounding_um);
   }
 
   const Gear& gear_;

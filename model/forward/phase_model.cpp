@@ -111,6 +111,9 @@ Outcome<PhaseLoad> PhaseModel::finish(const ContactState& start, Control control
     result.disc_force_n = wall_resultant(assembled_->stations, exact->wall_force)(0);
   }
   result.recomputed_gap_um = 1e3 * recomputed_gap_error(*state, exact ? &exact->wall_force : nullptr);
+  result.largest_displacement_mm = load_.problem.m.diagonal().maxCoeff() * state->force.sum();
+  result.rounding_um =
+      1e3 * gap_rounding_mm(load_.problem.size(), surface_.inner_radius_mm(), result.largest_displacement_mm);
   result.rotation_rad = state->rotation;
   result.torque_nm = 1e-3 * load_.lobes * state->torque;
   result.tangent_nm_per_rad = 1e-3 * load_.lobes * state->stiffness;

@@ -122,6 +122,7 @@ void put_all(const ForwardResult& result, hid_t file) {
     group.put("reciprocity", "1", c->reciprocity);
     group.put("equilibrium", "1", c->equilibrium);
     group.put("exact_gap_residual", "um", c->exact_gap_residual_um);
+    group.put("rounding", "um", c->rounding_um);
     group.put("discretisation_estimate", "1", c->discretisation_estimate);
   }
 }
