@@ -11,87 +11,118 @@ Eigen::VectorXd along_normal(const Eigen::MatrixX2d& normal, const Eigen::Matrix
 }
 
 /// Teeth's share of the problem that does not depend on the wall: c cos α′ and R cos α′.
-void set_tooth_gaps(std::span<const LoadedTooth> teeth, ContactProblem& problem) {
-  for (std::size_t i = 0; i < teeth.size(); ++i) {
-    const double cosine = std::cos(teeth[i].pressure_angle_rad);
-    problem.q(static_cast<Eigen::Index>(i)) = teeth[i].backlash_mm * cosine;
-    problem.r(static_cast<Eigen::Index>(i)) = teeth[i].contact_radius_mm * cosine;
+void set_point_gaps(std::span<const LoadedPoint> points, ContactProblem& problem) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double cosine = std::cos(points[i].pressure_angle_rad);
+    problem.q(static_cast<Eigen::Index>(i)) = points[i].backlash_mm * cosine;
+    problem.r(static_cast<Eigen::Index>(i)) = points[i].contact_radius_mm * cosine;
   }
 }
 
 } // namespace
 
-std::vector<ToothFunctional> tooth_functionals(const RingCompliance& ring, std::span<const LoadedTooth> teeth) {
+std::vector<ToothFunctional> tooth_functionals(const RingCompliance& ring, std::span<const LoadedPoint> points) {
   std::vector<ToothFunctional> result;
-  result.reserve(teeth.size());
-  for (const LoadedTooth& tooth : teeth) {
+  result.reserve(points.size());
+  for (const LoadedPoint& point : points) {
     // F > 0 pushes towards smaller φ and inwards: minus the functional's own direction, turned at the use.
-    result.push_back(ring.tooth(tooth.tooth, tooth.contact_radius_mm, std::cos(tooth.pressure_angle_rad),
-                                -std::sin(tooth.pressure_angle_rad)));
+    result.push_back(ring.tooth(point.tooth, point.flank_radius_mm, std::cos(point.pressure_angle_rad),
+                                -std::sin(point.pressure_angle_rad), point.slice));
   }
   return result;
 }
 
+namespace {
+
+/// What a frozen contact holds: its own compliance and its displacement from unit tooth loads.
+struct HeldWall {
+  std::vector<Eigen::Index> closed; ///< stations; empty when lines are held
+  Eigen::MatrixXd compliance;
+  Eigen::MatrixXd from_teeth;
+};
+
+HeldWall held_wall(const RingCompliance& ring, const AssembledState& assembled,
+                   std::span<const ToothFunctional> teeth) {
+  HeldWall held;
+  if (assembled.hold.size() > 0) {
+    held.compliance = assembled.hold * assembled.compliance * assembled.hold.transpose();
+    held.from_teeth = assembled.hold * ring.wall_tooth(assembled.stations, assembled.normal, teeth);
+    return held;
+  }
+  std::vector<WallStation> stations;
+  for (std::size_t i = 0; i < assembled.active.size(); ++i) {
+    if (!assembled.active[i]) continue;
+    stations.push_back(assembled.stations[i]);
+    held.closed.push_back(static_cast<Eigen::Index>(i));
+  }
+  held.compliance = assembled.compliance(held.closed, held.closed);
+  held.from_teeth = ring.wall_tooth(stations, assembled.normal(held.closed, Eigen::all), teeth);
+  return held;
+}
+
+} // namespace
+
 Eigen::MatrixXd frozen_compliance(const RingCompliance& ring, const AssembledState& assembled,
                                   std::span<const ToothFunctional> teeth) {
   Eigen::MatrixXd d = ring.tooth_tooth(teeth);
-  Eigen::MatrixXd wall;      // compliance of what is held
-  Eigen::MatrixXd wall_tooth; // its displacement from unit tooth loads
-  if (assembled.hold.size() > 0) {
-    wall = assembled.hold * assembled.compliance * assembled.hold.transpose();
-    wall_tooth = assembled.hold * ring.wall_tooth(assembled.stations, assembled.normal, teeth);
-  } else {
-    std::vector<WallStation> closed;
-    std::vector<Eigen::Index> at;
-    for (std::size_t i = 0; i < assembled.active.size(); ++i) {
-      if (!assembled.active[i]) continue;
-      closed.push_back(assembled.stations[i]);
-      at.push_back(static_cast<Eigen::Index>(i));
-    }
-    wall = assembled.compliance(at, at);
-    wall_tooth = ring.wall_tooth(closed, assembled.normal(at, Eigen::all), teeth);
-  }
-  if (wall.size() == 0) return d;
+  const HeldWall held = held_wall(ring, assembled, teeth);
+  if (held.compliance.size() == 0) return d;
   // D = G_tt − YᵀY with Y = L⁻¹ G_wt: symmetric by construction.
-  const Eigen::LLT<Eigen::MatrixXd> factor(wall);
-  if (factor.info() != Eigen::Success) throw NotPositiveDefinite(0, wall.diagonal().minCoeff());
-  const Eigen::MatrixXd y = factor.matrixL().solve(wall_tooth);
+  const Eigen::LLT<Eigen::MatrixXd> factor(held.compliance);
+  if (factor.info() != Eigen::Success) throw NotPositiveDefinite(0, held.compliance.diagonal().minCoeff());
+  const Eigen::MatrixXd y = factor.matrixL().solve(held.from_teeth);
   d.selfadjointView<Eigen::Lower>().rankUpdate(y.transpose(), -1.0);
   d.triangularView<Eigen::StrictlyUpper>() = d.transpose();
   return d;
 }
 
+Eigen::MatrixX2d frozen_reaction(const RingCompliance& ring, const AssembledState& assembled,
+                                 std::span<const ToothFunctional> teeth, const Eigen::VectorXd& tooth_force) {
+  const HeldWall held = held_wall(ring, assembled, teeth);
+  Eigen::VectorXd along = Eigen::VectorXd::Zero(assembled.force_n.size());
+  if (held.compliance.size() > 0) {
+    // Tooth forces act along minus their functionals, so the wall would move by −G_wt F; the reaction takes it back.
+    const Eigen::VectorXd reaction = held.compliance.llt().solve(held.from_teeth * tooth_force);
+    if (assembled.hold.size() > 0) {
+      along = assembled.hold.transpose() * reaction;
+    } else {
+      along(held.closed) = reaction;
+    }
+  }
+  return assembled.normal.array().colwise() * along.array();
+}
+
 LoadProblem linear_problem(const RingCompliance& ring, const AssembledState& assembled,
-                           std::span<const LoadedTooth> teeth) {
+                           std::span<const LoadedPoint> points) {
   LoadProblem load;
-  load.teeth = tooth_functionals(ring, teeth);
-  load.tooth_count = static_cast<int>(teeth.size());
+  load.points = tooth_functionals(ring, points);
+  load.point_count = static_cast<int>(points.size());
   load.lobes = ring.folded() ? 2.0 : 1.0;
-  load.problem.m = frozen_compliance(ring, assembled, load.teeth);
-  load.problem.q.resize(load.tooth_count);
-  load.problem.r.resize(load.tooth_count);
-  set_tooth_gaps(teeth, load.problem);
+  load.problem.m = frozen_compliance(ring, assembled, load.points);
+  load.problem.q.resize(load.point_count);
+  load.problem.r.resize(load.point_count);
+  set_point_gaps(points, load.problem);
   return load;
 }
 
 LoadProblem unilateral_problem(const RingCompliance& ring, const AssembledState& assembled,
-                               std::span<const LoadedTooth> teeth) {
+                               std::span<const LoadedPoint> points) {
   LoadProblem load;
-  load.teeth = tooth_functionals(ring, teeth);
-  load.tooth_count = static_cast<int>(teeth.size());
+  load.points = tooth_functionals(ring, points);
+  load.point_count = static_cast<int>(points.size());
   load.lobes = ring.folded() ? 2.0 : 1.0;
-  const Eigen::Index n = load.tooth_count;
+  const Eigen::Index n = load.point_count;
   const Eigen::Index m = assembled.force_n.size();
   ContactProblem& problem = load.problem;
   problem.m.resize(n + m, n + m);
-  problem.m.topLeftCorner(n, n) = ring.tooth_tooth(load.teeth);
-  const Eigen::MatrixXd wall_tooth = ring.wall_tooth(assembled.stations, assembled.normal, load.teeth);
+  problem.m.topLeftCorner(n, n) = ring.tooth_tooth(load.points);
+  const Eigen::MatrixXd wall_tooth = ring.wall_tooth(assembled.stations, assembled.normal, load.points);
   problem.m.bottomLeftCorner(m, n) = -wall_tooth;
   problem.m.topRightCorner(n, m) = -wall_tooth.transpose();
   problem.m.bottomRightCorner(m, m) = assembled.compliance;
   problem.q.resize(n + m);
   problem.r.setZero(n + m);
-  set_tooth_gaps(teeth, problem);
+  set_point_gaps(points, problem);
   // d(assembly) = −G_tw p(assembly), towards smaller φ.
   problem.q.head(n) += wall_tooth.transpose() * assembled.force_n;
   problem.q.tail(m) = assembled.gap_mm - along_normal(assembled.normal, assembled.displacement);
@@ -103,7 +134,7 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
                                         const ContactState& start, Control control, ContactSolver& solver) {
   NewtonEnd end(1e-11); // mm
   constexpr int max_steps = 30;
-  const Eigen::Index n = load.tooth_count;
+  const Eigen::Index n = load.point_count;
   const Eigen::Index m = assembled.force_n.size();
 
   // Tooth displacement by assembly does not change with the load; rows of q for the teeth are kept, wall rows are made anew.
@@ -116,7 +147,7 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
     const Eigen::VectorXd wall = result.state.force.tail(m);
     result.wall_force = normal.array().colwise() * wall.array();
     const Eigen::MatrixX2d u = ring.wall_displacement(assembled.stations, assembled.stations, result.wall_force,
-                                                      load.teeth, -result.state.force.head(n));
+                                                      load.points, -result.state.force.head(n));
     Eigen::VectorXd gap(m);
     for (Eigen::Index i = 0; i < m; ++i) {
       const WallStation& s = assembled.stations[static_cast<std::size_t>(i)];
@@ -134,7 +165,7 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
                                                                 result.residual_mm, step)};
     }
     problem.m.bottomRightCorner(m, m) = ring.wall_wall(assembled.stations, normal);
-    const Eigen::MatrixXd wall_tooth = ring.wall_tooth(assembled.stations, normal, load.teeth);
+    const Eigen::MatrixXd wall_tooth = ring.wall_tooth(assembled.stations, normal, load.points);
     problem.m.bottomLeftCorner(m, n) = -wall_tooth;
     problem.m.topRightCorner(n, m) = -wall_tooth.transpose();
     problem.q.head(n) = tooth_gap;

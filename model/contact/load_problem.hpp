@@ -17,19 +17,22 @@
 
 namespace strainwave {
 
-/// One tooth that may carry load.
-struct LoadedTooth {
+/// One point that may carry load: the only one of its tooth (the source text's model) or one of many over flank and face.
+struct LoadedPoint {
   int tooth = 0; ///< material index; its sector
   double phi_rad = 0.0;
-  double backlash_mm = 0.0;          ///< c, circumferential; negative: interference
-  double contact_radius_mm = 0.0;    ///< R
-  double pressure_angle_rad = 0.0;   ///< α′; 0: circumferential force
+  double backlash_mm = 0.0;        ///< c, circumferential; negative: interference
+  double contact_radius_mm = 0.0;  ///< R: lever arm, distance of the deformed point from the gear's axis
+  double flank_radius_mm = 0.0;    ///< of the point on the undeformed flexspline: where the unit responses are taken
+  double pressure_angle_rad = 0.0; ///< α′; 0: circumferential force
+  int slice = -1;                  ///< of the face; −1: shared evenly by all
+  double z_mm = 0.0;
 };
 
 struct LoadProblem {
-  ContactProblem problem;             ///< teeth first, then (unilateral) wall stations
-  std::vector<ToothFunctional> teeth; ///< towards larger φ and, with α′, inwards
-  int tooth_count = 0;
+  ContactProblem problem;             ///< points of the teeth first, then (unilateral) wall stations
+  std::vector<ToothFunctional> points; ///< towards larger φ and, with α′, outwards
+  int point_count = 0;
   double lobes = 2.0;                 ///< torque = lobes · r · z
 };
 
@@ -37,12 +40,17 @@ struct LoadProblem {
 Eigen::MatrixXd frozen_compliance(const RingCompliance& ring, const AssembledState& assembled,
                                   std::span<const ToothFunctional> teeth);
 
-std::vector<ToothFunctional> tooth_functionals(const RingCompliance& ring, std::span<const LoadedTooth> teeth);
+/// Wall forces (radial, circumferential; one line a station; N) with which a frozen contact answers tooth forces: the
+/// change that keeps the held wall where assembly put it.
+Eigen::MatrixX2d frozen_reaction(const RingCompliance& ring, const AssembledState& assembled,
+                                 std::span<const ToothFunctional> teeth, const Eigen::VectorXd& tooth_force);
+
+std::vector<ToothFunctional> tooth_functionals(const RingCompliance& ring, std::span<const LoadedPoint> points);
 
 LoadProblem linear_problem(const RingCompliance& ring, const AssembledState& assembled,
-                           std::span<const LoadedTooth> teeth);
+                           std::span<const LoadedPoint> points);
 LoadProblem unilateral_problem(const RingCompliance& ring, const AssembledState& assembled,
-                               std::span<const LoadedTooth> teeth);
+                               std::span<const LoadedPoint> points);
 
 /// A load state corrected to the exact gap by Newton steps around the LCP: at constant torque (drive = true keeps
 /// torque) or constant rotation.

@@ -78,7 +78,8 @@ std::vector<WallStation> RingCompliance::stations(double phase) const {
   return result;
 }
 
-ToothFunctional RingCompliance::tooth(int sector, double radius_mm, double circumferential, double inwards) const {
+ToothFunctional RingCompliance::tooth(int sector, double radius_mm, double circumferential, double inwards,
+                                      int only_slice) const {
   const std::vector<double>& heights = responses_->flank_radius_mm;
   const int slices = static_cast<int>(responses_->flank_z_mm.size());
   assert(!heights.empty());
@@ -91,13 +92,17 @@ ToothFunctional RingCompliance::tooth(int sector, double radius_mm, double circu
     upper = std::clamp(upper, 1, static_cast<int>(heights.size()) - 1);
     const double lo = heights[static_cast<std::size_t>(upper - 1)];
     const double hi = heights[static_cast<std::size_t>(upper)];
-    const double share = (radius - lo) / (hi - lo);
-    levels = {{upper - 1, 1.0 - share}, {upper, share}};
+    const double upwards = (radius - lo) / (hi - lo);
+    levels = {{upper - 1, 1.0 - upwards}, {upper, upwards}};
   }
   ToothFunctional result{sector, {}};
   for (const auto& [level, weight] : levels) {
     for (int slice = 0; slice < slices; ++slice) {
-      const double part = weight / slices;
+      if (only_slice >= 0 && slice != only_slice) continue;
+      // hats at both ends of the face are half as wide as the others
+      const double width = slice == 0 || slice == slices - 1 ? 0.5 : 1.0;
+      const double share = only_slice >= 0 || slices == 1 ? 1.0 : width / (slices - 1);
+      const double part = weight * share;
       if (part == 0.0) continue;
       if (circumferential != 0.0) {
         result.weights.emplace_back(responses_->flank(level, slice, UnitResponses::circumferential),
@@ -198,6 +203,26 @@ Eigen::MatrixX2d RingCompliance::wall_displacement(std::span<const WallStation> 
     }
     result(i, 0) = w;
     result(i, 1) = v;
+  }
+  return result;
+}
+
+Eigen::VectorXd RingCompliance::tooth_displacement(std::span<const ToothFunctional> of,
+                                                   std::span<const ToothFunctional> loaded,
+                                                   const Eigen::VectorXd& force) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(of.size()));
+  for (Eigen::Index j = 0; j < force.size(); ++j) {
+    if (force(j) == 0.0) continue;
+    const ToothFunctional& load = loaded[static_cast<std::size_t>(j)];
+    for (Eigen::Index i = 0; i < result.size(); ++i) {
+      const ToothFunctional& at = of[static_cast<std::size_t>(i)];
+      const Eigen::MatrixXd& g = all_[static_cast<std::size_t>(wrapped(at.sector - load.sector))];
+      double sum = 0.0;
+      for (const auto& [b, weight_b] : load.weights) {
+        for (const auto& [a, weight_a] : at.weights) sum += weight_a * weight_b * g(a, b);
+      }
+      result(i) += sum * force(j);
+    }
   }
   return result;
 }

@@ -50,9 +50,10 @@ public:
   /// ordered by angle, then row.
   std::vector<WallStation> stations(double phase) const;
 
-  /// The flank functional of a tooth at contact radius R: linear between two heights (held at the ends), `along` times
-  /// the circumferential and `inwards` times the inward radial one, shared evenly by the face slices.
-  ToothFunctional tooth(int sector, double radius_mm, double circumferential, double inwards) const;
+  /// The flank functional of a tooth at a radius of the undeformed flank: linear between two heights (held at the ends),
+  /// `circumferential` times the circumferential and `inwards` times the inward radial one, on one face slice or (−1)
+  /// shared by all of them as their hats share the face.
+  ToothFunctional tooth(int sector, double radius_mm, double circumferential, double inwards, int slice = -1) const;
 
   // Compliances, mm/N; `normal` columns are (radial, circumferential) components of a contact normal per station.
   // wall × wall: displacement along normal i from unit force along normal j.
@@ -68,7 +69,10 @@ public:
                                      const Eigen::MatrixX2d& wall_force, std::span<const ToothFunctional> teeth,
                                      const Eigen::VectorXd& tooth_force) const;
 
-  /// Displacement of the teeth's functionals from wall forces (columns radial, circumferential; N).
+  /// Displacement of the teeth's functionals from forces on other ones (N, along the functionals).
+  Eigen::VectorXd tooth_displacement(std::span<const ToothFunctional> of, std::span<const ToothFunctional> loaded,
+                                     const Eigen::VectorXd& force) const;
+  /// The same from wall forces (columns radial, circumferential; N).
   Eigen::VectorXd tooth_displacement(std::span<const ToothFunctional> teeth, std::span<const WallStation> loaded,
                                      const Eigen::MatrixX2d& wall_force) const;
 

@@ -5,6 +5,8 @@
 #include "model/flexspline/sparse.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <stdexcept>
 
 namespace strainwave {
@@ -49,56 +51,78 @@ SectorNumbering number_unknowns(const SectorMesh& mesh) {
 
 } // namespace
 
-CondensedSector condense(const SectorMesh& mesh, const Material& material,
-                         const std::vector<const SectorWeights*>& loads) {
-  const SectorNumbering numbering = number_unknowns(mesh);
-  SparseAssembly assembly(numbering.total);
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const ElementStiffness stiffness = cylindrical_stiffness(mesh, static_cast<int>(e), material);
-    std::array<int, 60> unknown{};
-    for (std::size_t a = 0; a < 60; ++a)
-      unknown[a] = numbering.unknown[static_cast<std::size_t>(3 * mesh.elements[e][a / 3]) + a % 3];
-    assembly.add(unknown, stiffness);
-  }
-  const SparseCholesky factor(assembly, numbering.inside);
+struct CondensedSector::Content {
+  SparseAssembly assembly;
+  std::unique_ptr<SparseCholesky> factor;
+  int inside;
+};
 
-  const int total = numbering.total, inside = numbering.inside, boundary = total - inside;
-  const auto columns = static_cast<Eigen::Index>(loads.size());
-  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(total, columns);
+CondensedSector::CondensedSector(const SectorMesh& mesh, const Material& material,
+                                 const std::vector<const SectorWeights*>& weights) {
+  const SectorNumbering numbering = number_unknowns(mesh);
+  content = std::make_unique<Content>(Content{SparseAssembly(numbering.total), nullptr, numbering.inside});
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const ElementStiffness element = cylindrical_stiffness(mesh, static_cast<int>(e), material);
+    std::array<int, 60> place{};
+    for (std::size_t a = 0; a < 60; ++a)
+      place[a] = numbering.unknown[3 * static_cast<std::size_t>(mesh.elements[e][a / 3]) + a % 3];
+    content->assembly.add(place, element);
+  }
+  content->factor = std::make_unique<SparseCholesky>(content->assembly, numbering.inside);
+  const SparseCholesky& factor = *content->factor;
+
+  const int total = numbering.total, first = numbering.inside, size = total - first;
+  const auto columns = static_cast<Eigen::Index>(weights.size());
+  loads = Eigen::MatrixXd::Zero(total, columns);
   for (Eigen::Index c = 0; c < columns; ++c) {
-    const SectorWeights& weights = *loads[static_cast<std::size_t>(c)];
-    for (std::size_t n = 0; n < weights.dof.size(); ++n) {
-      const int unknown = numbering.unknown[static_cast<std::size_t>(weights.dof[n])];
-      if (unknown >= 0)
-        y(unknown, c) += weights.weight[n];
+    const SectorWeights& each = *weights[static_cast<std::size_t>(c)];
+    for (std::size_t n = 0; n < each.dof.size(); ++n) {
+      const int row = numbering.unknown[static_cast<std::size_t>(each.dof[n])];
+      if (row >= 0)
+        loads(row, c) += each.weight[n];
     }
   }
-  y = factor.forward(y);
+  const Eigen::MatrixXd y = factor.forward(loads);
 
-  CondensedSector condensed;
-  condensed.boundary = numbering.boundary;
-  Eigen::MatrixXd last = factor.last_block(inside); // lower triangle, factor order
-  const Eigen::MatrixXd y_inside = y.topRows(inside);
-  condensed.inside = y_inside.transpose() * y_inside;
-  Eigen::MatrixXd load = last.triangularView<Eigen::Lower>() * y.bottomRows(boundary);
+  boundary = numbering.boundary;
+  unknown = numbering.unknown;
+  Eigen::MatrixXd last = factor.last_block(first); // lower triangle, factor order
+  inside = y.topRows(first).transpose() * y.topRows(first);
+  const Eigen::MatrixXd last_load = last.triangularView<Eigen::Lower>() * y.bottomRows(size);
 
   // S = L Lᵀ in the factor's order, then back to left, right.
-  Eigen::MatrixXd product(boundary, boundary);
+  Eigen::MatrixXd squared(size, size);
   const double one = 1.0, zero = 0.0;
-  last.triangularView<Eigen::StrictlyUpper>().setZero();
-  dsyrk_("L", "N", &boundary, &boundary, &one, last.data(), &boundary, &zero, product.data(), &boundary);
-  condensed.stiffness.resize(boundary, boundary);
-  condensed.load.resize(boundary, columns);
+  dsyrk_("L", "N", &size, &size, &one, last.data(), &size, &zero, squared.data(), &size);
+  stiffness.resize(size, size);
+  load.resize(size, columns);
   const std::vector<int> order = factor.order();
-  for (int c = 0; c < boundary; ++c) {
-    const int to_c = order[static_cast<std::size_t>(inside + c)] - inside;
-    condensed.load.row(to_c) = load.row(c);
-    for (int r = c; r < boundary; ++r) {
-      const int to_r = order[static_cast<std::size_t>(inside + r)] - inside;
-      condensed.stiffness(to_r, to_c) = condensed.stiffness(to_c, to_r) = product(r, c);
+  for (int c = 0; c < size; ++c) {
+    const int to_c = order[static_cast<std::size_t>(first + c)] - first;
+    load.row(to_c) = last_load.row(c);
+    for (int r = c; r < size; ++r) {
+      const int to_r = order[static_cast<std::size_t>(first + r)] - first;
+      stiffness(to_r, to_c) = stiffness(to_c, to_r) = squared(r, c);
     }
   }
-  return condensed;
+}
+
+CondensedSector::~CondensedSector() = default;
+
+Eigen::MatrixXd CondensedSector::displacement(const Eigen::MatrixXd& force,
+                                              const Eigen::MatrixXd& at_boundary) const {
+  const Eigen::Index first = content->inside, size = at_boundary.rows();
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(first + size, force.cols());
+  u.bottomRows(size) = at_boundary;
+  u.topRows(first) = content->factor->solve_inside(residual(content->assembly, force, u).topRows(first));
+  return u;
+}
+
+Eigen::MatrixXd CondensedSector::energy(const Eigen::MatrixXd& force,
+                                        const Eigen::MatrixXd& at_boundary) const {
+  const Eigen::MatrixXd u = displacement(force, at_boundary);
+  const Eigen::MatrixXd twice = force.transpose() * u + u.transpose() * residual(content->assembly, force, u);
+  return 0.5 * (twice + twice.transpose());
 }
 
 } // namespace strainwave

@@ -2,11 +2,10 @@
 // Responses of the whole ring from one sector: a small problem for each circumferential harmonic.
 //
 // With displacements u^(j) = (1/N) Σ_h û_h e^{i h j 2π/N} of sector j, the right boundary is the left one
-// times e^{iα}, α = 2πh/N, and the condensed sector (condensation.hpp) gives for each harmonic the Hermitian
-// matrix
+// times e^{iα}, α = 2πh/N, and the condensed sector (condensation.hpp) gives a Hermitian matrix for each
+// harmonic:
 //
-//        K_h = S_ll + S_rr + e^{iα} S_lr + e^{−iα} S_rl        (Olson et al., Appl. Mech. Rev. 66 (2014)
-//        040803)
+//        K_h = S_ll + S_rr + e^{iα} S_lr + e^{−iα} S_rl     (Olson et al., Appl. Mech. Rev. 66 (2014) 040803)
 //
 // The sector is its own mirror image in φ → −φ: with Σ = diag(1, −1, 1) on (u_r, u_φ, u_z), S_rr = Σ S_ll Σ
 // and S_rl = Σ S_lr Σ. Hence conj(K_h) = Σ K_h Σ, and with D = diag(1, i, 1) the matrix Dᴴ K_h D is *real*:
@@ -15,13 +14,15 @@
 //
 //        Y = L⁻¹ Dᴴ (f̂_l + e^{−iα} f̂_r)      G_h = f̂ᴴ W f̂ + Yᴴ Y      G(k) = (1/N) Σ_h e^{iαk} G_h
 //
-// with G_{N−h} = conj(G_h), so only h = 0 … N/2 are solved, in parallel; every harmonic fills its own place
-// and the inverse transform adds them in the order of h: the result has the same bits for any number of
-// threads.
+// with G_{N−h} = conj(G_h), so only h = 0 … N/2 are solved, in parallel. Every harmonic fills its own place
+// and the inverse transform adds them in the order of h: the same bits for any number of threads. The four
+// lowest harmonics, in which the cup hardly resists, get G_h from the refined energy of condensation.hpp
+// instead of Yᴴ Y.
 
 #include "model/flexspline/functionals.hpp"
 #include "model/flexspline/mesh.hpp"
 
+#include <cstddef>
 #include <vector>
 
 namespace strainwave {
@@ -31,5 +32,17 @@ namespace strainwave {
 /// definite.
 std::vector<double> cyclic_responses(const SectorMesh& mesh, const Material& material,
                                      const std::vector<Functional>& functionals, int threads = 0);
+
+/// factor × the unit load of a functional on a sector of the ring.
+struct RingLoad {
+  std::size_t functional = 0;
+  int sector = 0;
+  double factor = 1.0; ///< N (N·mm for rotations)
+};
+
+/// Displacements [mm, Cartesian] of all nodes of the ring under loads, in the order of SectorMesh::ring_node.
+std::vector<Point> ring_displacements(const SectorMesh& mesh, const Material& material,
+                                      const std::vector<Functional>& functionals,
+                                      const std::vector<RingLoad>& loads, int threads = 0);
 
 } // namespace strainwave

@@ -113,12 +113,13 @@ ElementStiffness cylindrical_stiffness(const SectorMesh& mesh, int element, cons
         mesh.nodes[static_cast<std::size_t>(mesh.elements[static_cast<std::size_t>(element)][a])].angle;
     frame[a] << std::cos(phi), -std::sin(phi), 0.0, std::sin(phi), std::cos(phi), 0.0, 0.0, 0.0, 1.0;
   }
-  for (int a = 0; a < 20; ++a)
-    for (int b = 0; b < 20; ++b) {
+  for (int b = 0; b < 20; ++b)
+    for (int a = 0; a <= b; ++a) {
       const Eigen::Matrix3d block = stiffness.block<3, 3>(3 * a, 3 * b);
       stiffness.block<3, 3>(3 * a, 3 * b) =
           frame[static_cast<std::size_t>(a)].transpose() * block * frame[static_cast<std::size_t>(b)];
     }
+  stiffness.triangularView<Eigen::StrictlyLower>() = stiffness.transpose(); // the same bits on both sides
   return stiffness;
 }
 

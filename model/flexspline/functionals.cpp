@@ -192,6 +192,15 @@ DirectionPair wall_hat(const SectorMesh& mesh, double offset, const Hat& z) {
           {scaled(parts[0].radial, factor), scaled(parts[1].radial, factor)}};
 }
 
+double moment_about_axis(const SectorMesh& mesh, const Functional& functional) {
+  double moment = 0.0;
+  for (const auto* part : {&functional.here, &functional.next})
+    for (std::size_t n = 0; n < part->dof.size(); ++n)
+      if (part->dof[n] % 3 == 1)
+        moment += part->weight[n] * mesh.nodes[static_cast<std::size_t>(part->dof[n] / 3)].radius;
+  return moment;
+}
+
 PointFunctionals point_functionals(const SectorMesh& mesh, const CylinderPoint& point) {
   const Eigen::Vector3d target(point.radius * std::cos(point.angle), point.radius * std::sin(point.angle),
                                point.z);

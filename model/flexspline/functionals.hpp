@@ -51,6 +51,9 @@ DirectionPair flank_hat(const SectorMesh& mesh, const Hat& radius, const Hat& z)
 /// times a hat in z.
 DirectionPair wall_hat(const SectorMesh& mesh, double offset, const Hat& z);
 
+/// Moment about the axis of a functional's unit load, N·mm.
+double moment_about_axis(const SectorMesh& mesh, const Functional& functional);
+
 /// Displacement components of the material point (radius, angle, z) of sector 0; throws std::logic_error
 /// outside the mesh.
 struct PointFunctionals {

@@ -1,14 +1,14 @@
 #pragma once
 // Sector mesh: one tooth pitch of the cup in 20-node hexahedra; copies turned by 2π/sectors make the ring.
 //
-//        r                       tooth (only in the middle of the pitch)
-//        │                  ┌──────────┐ tip_radius
-//        │   wall           │   face   │ front
-//        ├─┬───────────────┬┴──────────┴┬─┐ root_radius
-//        │ └───────────────┴────────────┴─┘ neutral_radius − rim_thickness/2 (inner wall, one surface)
+//        r                        tooth (only in the middle of the pitch)
+//        │                  ┌────────────┐ tip_radius
+//        │       wall       │    face    │ front
+//        ├─┬────────────────┴────────────┴─┐ root_radius
+//        │ ├───────────────────────────────┘ neutral_radius − rim_thickness/2 (inner wall, one surface)
 //        │ │ diaphragm
-//        │ │                                    z = 0 in the middle of the diaphragm, cup_length at the open
-//        end └─┘ boss_radius, its bore is fixed
+//        │ │ z = 0 in its middle                          z = cup_length at the open end
+//        └─┘ boss_radius, the bore is fixed
 //
 // The mesh is a meridian section of 8-node quadrilaterals swept over the pitch: every node has a meridian
 // lattice place (i along the radius of diaphragm, wall and tooth; j along the axis) and an angular place k,

@@ -106,10 +106,13 @@ constexpr struct {
   const char* name;
   const char* unit;
   std::vector<double> UnitResponses::*list;
-} lists[] = {
-    {"flank_radius", "mm", &UnitResponses::flank_radius_mm}, {"flank_z", "mm", &UnitResponses::flank_z_mm},
-    {"wall_offset", "pitch", &UnitResponses::wall_offset},   {"wall_z", "mm", &UnitResponses::wall_z_mm},
-    {"section_z", "mm", &UnitResponses::section_z_mm},       {"responses", "mm/N", &UnitResponses::data}};
+} lists[] = {{"flank_radius", "mm", &UnitResponses::flank_radius_mm},
+             {"flank_centre", "mm", &UnitResponses::flank_centre_mm},
+             {"flank_z", "mm", &UnitResponses::flank_z_mm},
+             {"wall_offset", "pitch", &UnitResponses::wall_offset},
+             {"wall_z", "mm", &UnitResponses::wall_z_mm},
+             {"section_z", "mm", &UnitResponses::section_z_mm},
+             {"responses", "mm/N", &UnitResponses::data}};
 
 /// What is no list: sectors, reciprocity error, discretisation estimate.
 std::vector<double> single_numbers(const UnitResponses& responses) {

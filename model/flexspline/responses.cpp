@@ -35,6 +35,13 @@ std::optional<Failure> flaw(const ResponseRequest& r) {
   const auto no = [](std::string message) { return Failure{Status::contradiction, std::move(message)}; };
   if (r.teeth && r.flank_heights < 2)
     return no(fmt::format("flank_heights = {}: at least 2 hats cover a flank", r.flank_heights));
+  if (r.teeth && r.flank_heights > 2 * r.mesh.tooth_height + 1)
+    return no(
+        fmt::format("{} hats on a flank need mesh.tooth_height = {} at least (there are {} rows of nodes)",
+                    r.flank_heights, (r.flank_heights) / 2, 2 * r.mesh.tooth_height + 1));
+  if (r.teeth && r.face_slices > 2 * r.mesh.along_face + 1)
+    return no(fmt::format("{} hats across the face need mesh.along_face = {} at least", r.face_slices,
+                          r.face_slices / 2));
   if (r.teeth && r.face_slices < 1)
     return no(fmt::format("face_slices = {}: at least 1", r.face_slices));
   if (!(r.material.youngs_modulus_mpa > 0.0) ||
@@ -108,9 +115,11 @@ void add_sections(const ResponseRequest& r, const SectorMesh& mesh, ResponseFunc
   const Flexspline& f = r.flexspline;
   const double inner = f.neutral_radius_mm - f.rim_thickness_mm / 2.0;
   for (const double z : result.layout.section_z_mm) {
-    const bool behind = z < face_range(f).rear;
-    const double thickness = r.teeth && !behind ? f.root_radius_mm - inner : f.wall_thickness_mm;
-    const double neutral = r.teeth && !behind ? f.neutral_radius_mm : inner + thickness / 2.0;
+    // Behind the face the wall; in the step between them (mesh.hpp) whichever is thinner.
+    const double rear = face_range(f).rear, wall = f.wall_thickness_mm;
+    const double rim = r.teeth ? f.root_radius_mm - inner : wall, step = std::fabs(rim - wall);
+    const double thickness = z >= rear ? rim : z > rear - step ? std::min(rim, wall) : wall;
+    const double neutral = r.teeth && z >= rear ? f.neutral_radius_mm : inner + thickness / 2.0;
     const PointFunctionals at_neutral = point_functionals(mesh, {neutral, 0.0, z});
     const PointFunctionals at_inner = point_functionals(mesh, {inner, 0.0, z});
     const PointFunctionals at_outer = point_functionals(mesh, {inner + thickness, 0.0, z});
@@ -157,7 +166,7 @@ ResponseFunctionals response_functionals(const ResponseRequest& r, const SectorM
       r.wall_z_mm.empty() ? equidistant(face.rear, face.front, r.mesh.along_face + 1) : r.wall_z_mm;
   if (r.sections)
     layout.section_z_mm = r.section_z_mm.empty() ? layout.wall_z_mm : r.section_z_mm;
-  const auto add = [&](DirectionPair pair) {
+  const auto add = [&](DirectionPair&& pair) {
     result.functionals.push_back(std::move(pair.circumferential));
     result.functionals.push_back(std::move(pair.radial));
   };
@@ -170,7 +179,10 @@ ResponseFunctionals response_functionals(const ResponseRequest& r, const SectorM
       for (int slice = 0; slice < r.face_slices; ++slice) {
         const Hat across = r.face_slices == 1 ? Hat{.constant = true}
                                               : equidistant_hat(face.rear, face.front, r.face_slices, slice);
-        add(flank_hat(mesh, equidistant_hat(root, tip, r.flank_heights, height), across));
+        DirectionPair hat = flank_hat(mesh, equidistant_hat(root, tip, r.flank_heights, height), across);
+        if (slice == 0)
+          layout.flank_centre_mm.push_back(moment_about_axis(mesh, hat.circumferential));
+        add(std::move(hat));
       }
   }
   for (const double offset : layout.wall_offset)

@@ -79,10 +79,11 @@ RingSolver::RingSolver(const RingPart& part, const Material& material, const std
     unknown[static_cast<std::size_t>(dof)] = -1;
   for (const int dof : also_fixed)
     unknown[static_cast<std::size_t>(dof)] = -1;
+  int size = 0;
   for (int& u : unknown)
     if (u == 0)
       u = size++;
-  SparseAssembly assembly(size);
+  assembly = SparseAssembly(size);
   const SectorMesh& mesh = part.mesh();
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const ElementStiffness stiffness = cylindrical_stiffness(mesh, static_cast<int>(e), material);
@@ -97,11 +98,13 @@ RingSolver::RingSolver(const RingPart& part, const Material& material, const std
 }
 
 Eigen::MatrixXd RingSolver::solve(const Eigen::MatrixXd& force) const {
-  Eigen::MatrixXd inner(size, force.cols());
+  Eigen::MatrixXd inner(assembly.size(), force.cols());
   for (std::size_t dof = 0; dof < unknown.size(); ++dof)
     if (unknown[dof] >= 0)
       inner.row(unknown[dof]) = force.row(static_cast<Eigen::Index>(dof));
-  const Eigen::MatrixXd solution = factor->solve(inner);
+  Eigen::MatrixXd solution = factor->solve(inner);
+  for (int step = 0; step < 2; ++step)
+    solution += factor->solve(residual(assembly, inner, solution));
   Eigen::MatrixXd displacement = Eigen::MatrixXd::Zero(force.rows(), force.cols());
   for (std::size_t dof = 0; dof < unknown.size(); ++dof)
     if (unknown[dof] >= 0)

@@ -45,7 +45,8 @@ private:
   std::vector<int> left_place; ///< of a right node: its pair's place among the left nodes
 };
 
-/// One sparse factorization of the whole part.
+/// One sparse factorization of the whole part; solutions are refined twice with residuals in twice the
+/// working precision (a free cup multiplies rounding by 10⁷, see condensation.hpp).
 class RingSolver {
 public:
   /// `also_fixed`: further supports, 3·node + component. Throws as SparseCholesky does.
@@ -55,8 +56,8 @@ public:
 
 private:
   std::vector<int> unknown;
+  SparseAssembly assembly{0};
   std::unique_ptr<SparseCholesky> factor;
-  int size = 0;
 };
 
 } // namespace strainwave

@@ -4,8 +4,7 @@
 #include "model/gear/memory.hpp"
 
 #include <algorithm>
-#include <cassert>
-#include <cstring>
+#include <cmath>
 #include <new>
 #include <stdexcept>
 
@@ -30,18 +29,24 @@ struct SparseCholesky::Content {
     cholmod_free_factor(&factor, &common);
     cholmod_finish(&common);
   }
-  void check(const char* what) const {
-    if (common.status == CHOLMOD_OUT_OF_MEMORY)
+  void check(const cholmod_common& state, const char* what) const {
+    if (state.status == CHOLMOD_OUT_OF_MEMORY)
       throw std::bad_alloc();
-    if (common.status == CHOLMOD_TOO_LARGE)
+    if (state.status == CHOLMOD_TOO_LARGE)
       throw OutOfMemory("the factor of the stiffness matrix has more than 2^31 numbers; take a coarser [mesh]");
-    if (common.status == CHOLMOD_NOT_POSDEF)
+    if (state.status == CHOLMOD_NOT_POSDEF)
       throw NotPositiveStiffness(fmt::format("pivot {} of {} of the sector's stiffness is not positive",
-                                             factor ? factor->minor + 1 : 0, factor ? factor->n : 0));
-    if (common.status < CHOLMOD_OK)
-      throw std::logic_error(fmt::format("CHOLMOD failed in {} ({})", what, common.status));
+                                             factor ? factor->minor : 0, factor ? factor->n : 0));
+    if (state.status < CHOLMOD_OK)
+      throw std::logic_error(fmt::format("CHOLMOD failed in {} ({})", what, state.status));
   }
-  Eigen::MatrixXd solve(int system, const Eigen::MatrixXd& b) {
+  /// Several threads may solve at once: the factor is only read, the workspace is each call's own.
+  Eigen::MatrixXd solve(int system, const Eigen::MatrixXd& b) const {
+    struct Workspace : cholmod_common {
+      Workspace() : cholmod_common{} { cholmod_start(this); }
+      ~Workspace() { cholmod_finish(this); }
+    } workspace;
+    workspace.print = 0;
     cholmod_dense view{};
     view.nrow = static_cast<std::size_t>(b.rows());
     view.ncol = static_cast<std::size_t>(b.cols());
@@ -50,12 +55,12 @@ struct SparseCholesky::Content {
     view.x = const_cast<double*>(b.data()); // CHOLMOD reads it only
     view.xtype = CHOLMOD_REAL;
     view.dtype = CHOLMOD_DOUBLE;
-    cholmod_dense* x = cholmod_solve(system, factor, &view, &common);
+    cholmod_dense* x = cholmod_solve(system, factor, &view, &workspace);
     if (x == nullptr)
-      check("solve");
+      check(workspace, "a solve");
     Eigen::MatrixXd result =
         Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), b.rows(), b.cols());
-    cholmod_free_dense(&x, &common);
+    cholmod_free_dense(&x, &workspace);
     return result;
   }
 };
@@ -77,6 +82,30 @@ void SparseAssembly::add(const std::array<int, 60>& unknown, const Eigen::Matrix
   }
 }
 
+Eigen::MatrixXd residual(const SparseAssembly& k, const Eigen::MatrixXd& f, const Eigen::MatrixXd& u) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const RowMajor x = u;
+  RowMajor high = f, low = RowMajor::Zero(f.rows(), f.cols());
+  const Eigen::Index columns = f.cols();
+  const auto subtract = [&](Eigen::Index row, double factor, Eigen::Index from) {
+    double* h = &high(row, 0);
+    double* l = &low(row, 0);
+    const double* at = &x(from, 0);
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      const double p = -factor * at[c], lost = std::fma(-factor, at[c], -p);
+      const double sum = h[c] + p, back = sum - h[c];
+      l[c] += (h[c] - (sum - back)) + (p - back) + lost;
+      h[c] = sum;
+    }
+  };
+  for (std::size_t n = 0; n < k.value.size(); ++n) {
+    subtract(k.row[n], k.value[n], k.column[n]);
+    if (k.row[n] != k.column[n])
+      subtract(k.column[n], k.value[n], k.row[n]);
+  }
+  return high + low;
+}
+
 SparseCholesky::SparseCholesky(const SparseAssembly& assembly, int inside)
     : content(std::make_unique<Content>()) {
   cholmod_common* common = &content->common;
@@ -93,7 +122,7 @@ SparseCholesky::SparseCholesky(const SparseAssembly& assembly, int inside)
   triplet.dtype = CHOLMOD_DOUBLE;
   cholmod_sparse* matrix = cholmod_triplet_to_sparse(&triplet, triplet.nnz, common);
   if (matrix == nullptr)
-    content->check("gathering the matrix");
+    content->check(*common, "gathering the matrix");
   if (inside >= 0) {
     std::vector<int> member(n, 0), order(n);
     std::fill(member.begin() + inside, member.end(), 1);
@@ -107,7 +136,7 @@ SparseCholesky::SparseCholesky(const SparseAssembly& assembly, int inside)
   if (content->factor != nullptr)
     cholmod_factorize(matrix, content->factor, common);
   cholmod_free_sparse(&matrix, common);
-  content->check("the factorization");
+  content->check(*common, "the factorization");
 }
 
 SparseCholesky::~SparseCholesky() = default;
@@ -118,6 +147,15 @@ Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& b) const {
 
 Eigen::MatrixXd SparseCholesky::forward(const Eigen::MatrixXd& b) const {
   return content->solve(CHOLMOD_L, content->solve(CHOLMOD_P, b));
+}
+
+Eigen::MatrixXd SparseCholesky::solve_inside(const Eigen::MatrixXd& b) const {
+  const auto size = static_cast<Eigen::Index>(content->factor->n), inside = b.rows();
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(size, b.cols());
+  x.topRows(inside) = b;
+  x = forward(x);
+  x.bottomRows(size - inside).setZero();
+  return content->solve(CHOLMOD_Pt, content->solve(CHOLMOD_Lt, x)).topRows(inside);
 }
 
 std::vector<int> SparseCholesky::order() const {

@@ -34,6 +34,10 @@ private:
   int n;
 };
 
+/// f − K u, accumulated in twice the working precision: every sum is an unevaluated pair of doubles (Dekker
+/// 1971: two-sum, and two-product by fused multiply-add).
+Eigen::MatrixXd residual(const SparseAssembly& k, const Eigen::MatrixXd& f, const Eigen::MatrixXd& u);
+
 class SparseCholesky {
 public:
   /// `inside`: the unknowns from this one on are kept last in the order; −1: any order that keeps L sparse
@@ -46,6 +50,8 @@ public:
 
   /// A⁻¹ b for every column.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+  /// Solution of the first b.rows() unknowns with all others held at zero; they must be the ones kept inside.
+  Eigen::MatrixXd solve_inside(const Eigen::MatrixXd& b) const;
   /// L⁻¹ P b: rows in the factor's order.
   Eigen::MatrixXd forward(const Eigen::MatrixXd& b) const;
   /// order()[row of the factor] = unknown.

@@ -27,6 +27,7 @@ struct UnitResponses {
   int sectors = 0; ///< = flexspline teeth (any number for a smooth cup)
 
   std::vector<double> flank_radius_mm; ///< heights of the flank hats, ascending, root … tip; empty for a smooth cup
+  std::vector<double> flank_centre_mm; ///< lever arm of each hat's circumferential unit load: moment about the axis over 1 N
   std::vector<double> flank_z_mm;      ///< slices across the face; one entry (mid face): constant across the face
   std::vector<double> wall_offset;     ///< stations, fraction of a pitch from the tooth centre, e.g. {0, 0.5}
   std::vector<double> wall_z_mm;       ///< rows along the axis, ascending

@@ -1,10 +1,10 @@
 #include "model/forward/forward.hpp"
 
 #include "model/forward/load_cases.hpp"
-#include "model/forward/pressure_angle.hpp"
+#include "model/forward/flank_points.hpp"
+#include "model/forward/inputs.hpp"
 #include "model/forward/stage_memory.hpp"
 #include "model/flexspline/response_store.hpp"
-#include "model/flexspline/responses.hpp"
 #include "model/gear/fields.hpp"
 #include "model/tooth/backlash.hpp"
 #include "model/tooth/consistency.hpp"
@@ -43,20 +43,6 @@ private:
   std::chrono::steady_clock::time_point start_;
 };
 
-ContentKey curve_key(const WaveGenerator& wg, const Flexspline& fs) {
-  ContentKey key;
-  key.add(static_cast<double>(wg.shape)).add(fs.neutral_radius_mm).add(fs.rim_thickness_mm);
-  key.add(wg.max_radial_deformation_mm);
-  for (const auto& number : {wg.eccentricity_mm, wg.wrap_angle_deg, wg.force_angle_deg}) {
-    key.add(number ? 1.0 : 0.0).add(number.value_or(0.0));
-  }
-  if (wg.shape == WaveGeneratorShape::table) {
-    std::ifstream file(wg.table_file);
-    key.add(std::string(std::istreambuf_iterator<char>(file), {}));
-  }
-  return key;
-}
-
 WaveGeneratorResult describe(const NeutralCurve& curve) {
   const CurveSummary& s = curve.summary();
   return {.wrap_angle_deg = s.wrap_angle_rad.value_or(0.0) / degree,
@@ -66,74 +52,11 @@ WaveGeneratorResult describe(const NeutralCurve& curve) {
           .shape = std::string(choice_name(curve.shape()))};
 }
 
-/// Rows of the mesh on which the wall's responses are known stand this far apart.
-double row_spacing(const Gear& gear) { return gear.flexspline.face_width_mm / gear.mesh.along_face; }
-
-} // namespace
-
-std::optional<Failure> find_unavailable(const Gear& gear) {
-  const auto refuse = [](std::string sentence) { return Failure{Status::not_available, std::move(sentence)}; };
-  const Contact& c = gear.contact;
-  if (c.fidelity == Fidelity::nonlinear || c.assembly == AssemblyModel::nonlinear) {
-    return refuse("the nonlinear finite-element check is not in this version; use contact.fidelity = \"unilateral\" and "
-                  "contact.assembly = \"small_displacement\"");
-  }
-  if (c.flank_points != 1 || c.face_slices != 1 || c.gaps != GapModel::kinematic || c.reference_section_mm) {
-    return refuse("contact over the whole flank is not in this version; use contact.flank_points = 1, face_slices = 1 and "
-                  "gaps = \"kinematic\" without reference_section_mm");
-  }
-  if (gear.wave_generator.shape == WaveGeneratorShape::four_force && c.fidelity != Fidelity::linear) {
-    return refuse("a four_force wave generator has no surface to lift off from; use contact.fidelity = \"linear\"");
-  }
-  const double overhang = 0.5 * (gear.wave_generator.contact_width_mm - gear.flexspline.face_width_mm);
-  if (overhang > row_spacing(gear)) {
-    return refuse(fmt::format("wave_generator.contact_width_mm {} reaches {} mm past both ends of face_width_mm {}; the wall's "
-                              "compliance is known under the teeth and {} mm (one element) beyond",
-                              gear.wave_generator.contact_width_mm, overhang, gear.flexspline.face_width_mm,
-                              row_spacing(gear)));
-  }
-  return std::nullopt;
-}
-
-namespace {
-
 /// The ring keeps the responses that it refers to alive.
 struct Ring {
   std::shared_ptr<const UnitResponses> responses;
   RingCompliance compliance;
 };
-
-/// Rows across the discs where the wall may touch: both edges, which carry nearly all of the force, and the middle. Rows
-/// much closer than those of the mesh say the same thing three times, and their compliance is singular to rounding like
-/// (width / row spacing)⁴: narrow discs have the middle alone.
-std::vector<double> contact_rows(const Gear& gear) {
-  const Flexspline& fs = gear.flexspline;
-  const WaveGenerator& wg = gear.wave_generator;
-  const double middle = fs.cup_length_mm - fs.front_clearance_mm - 0.5 * fs.face_width_mm;
-  if (wg.contact_width_mm < 0.1 * row_spacing(gear)) return {middle};
-  return {middle - 0.5 * wg.contact_width_mm, middle, middle + 0.5 * wg.contact_width_mm};
-}
-
-WaveGeneratorSurface surface_of(const Gear& gear, const NeutralCurve& curve) {
-  const Flexspline& fs = gear.flexspline;
-  const double half = 0.5 * fs.rim_thickness_mm;
-  const CurveSummary& summary = curve.summary();
-  if (summary.disc_radius_mm) {
-    const double width = gear.wave_generator.contact_width_mm;
-    return {WaveGeneratorSurface::Discs{
-                .eccentricity_mm = *summary.eccentricity_mm,
-                .neutral_disc_radius_mm = *summary.disc_radius_mm,
-                .linearised = gear.contact.disc_gap == DiscGap::linearised,
-                .taper_per_mm = 1e-3 * gear.wave_generator.disc_taper_um / width,
-                .middle_z_mm = fs.cup_length_mm - fs.front_clearance_mm - 0.5 * fs.face_width_mm},
-            fs.neutral_radius_mm - half, half};
-  }
-  return {[curve](double x, double y) {
-            const CurveFoot foot = curve.foot(x, y);
-            return WaveGeneratorSurface::Foot{foot.distance_mm, foot.normal_angle_rad};
-          },
-          fs.neutral_radius_mm - half, half};
-}
 
 } // namespace
 
@@ -242,10 +165,7 @@ private:
 
   std::optional<Failure> flexspline() {
     StageClock clock(result_, "flexspline");
-    ResponseRequest request;
-    request.flexspline = gear_.flexspline;
-    request.material = gear_.material;
-    request.mesh = gear_.mesh;
+    const ResponseRequest request = response_request(gear_);
     ContentKey key;
     for (const std::uint64_t word : response_key(request)) key.add(std::string_view(reinterpret_cast<const char*>(&word), 8));
     bool from_disk = false;
@@ -282,7 +202,7 @@ private:
   Outcome<std::shared_ptr<const AssembledState>> assembly(double phase, bool* reused = nullptr) {
     ContentKey key = ring_key_;
     key.add(curve_key(gear_.wave_generator, gear_.flexspline).bits());
-    key.add(gear_.wave_generator.disc_taper_um).add(static_cast<double>(gear_.contact.disc_gap)).add(phase);
+    key.add(gear_.wave_generator.disc_taper_um).add(static_cast<double>(gear_.contact.disc_gap)).add(disc_shift_).add(phase);
     const auto [state, known] = state_.assemblies.get(key, [&] {
       const RingCompliance& ring = ring_->compliance;
       if (gear_.wave_generator.shape == WaveGeneratorShape::four_force) {
@@ -298,8 +218,33 @@ private:
     return std::shared_ptr<const AssembledState>(state, &state->value());
   }
 
+  /// Moves the discs until the neutral surface stands at u0 in the reference section, by the secant method.
+  std::optional<Failure> shift_discs() {
+    if (!gear_.contact.reference_section_mm) return std::nullopt;
+    constexpr double tolerance_mm = 1e-9;
+    double before = 0.0;
+    double excess_before = 0.0;
+    for (int step = 0; step < 30; ++step) {
+      surface_ = surface_of(gear_, **curve_, disc_shift_);
+      const auto assembled = assembly(0.0);
+      if (!assembled) return assembled.failure();
+      const AssembledPoses poses(ring_->compliance, **assembled, gear_.flexspline.neutral_radius_mm, 0.0,
+                                 {*gear_.contact.reference_section_mm});
+      const double excess = poses.radial(0.0, 0) - gear_.wave_generator.max_radial_deformation_mm;
+      if (std::abs(excess) < tolerance_mm) return std::nullopt;
+      const double slope = step > 0 ? (excess - excess_before) / (disc_shift_ - before) : 1.0;
+      before = disc_shift_;
+      excess_before = excess;
+      disc_shift_ -= excess / slope;
+    }
+    return Failure{Status::not_converged,
+                   fmt::format("no shift of the discs brings the section at z = {} mm to u0 = {} mm",
+                               *gear_.contact.reference_section_mm, gear_.wave_generator.max_radial_deformation_mm)};
+  }
+
   std::optional<Failure> first_assembly() {
     StageClock clock(result_, "assembly");
+    if (auto failure = shift_discs()) return failure;
     bool reused = false;
     const auto assembled = assembly(0.0, &reused);
     if (!assembled) return assembled.failure();
@@ -307,6 +252,7 @@ private:
     AssemblyResult out{.contact_force_n = a.disc_force_n,
                        .contact_lo_deg = a.contact_lo_rad / degree,
                        .contact_hi_deg = a.contact_hi_rad / degree,
+                       .disc_shift_mm = disc_shift_,
                        .newton_steps = a.newton_steps};
     const int middle_row = static_cast<int>(ring_->compliance.rows_mm().size() / 2);
     for (std::size_t i = 0; i < a.stations.size(); ++i) { // phase 0: a station stands on the major axis
@@ -319,44 +265,60 @@ private:
     return std::nullopt;
   }
 
-  /// The teeth that can meet their spaces at a phase. lobes = 1: those of the first lobe only.
-  Outcome<std::vector<LoadedTooth>> loaded_teeth(double phase) {
+  /// The points that can meet their spaces at a phase. lobes = 1: those of the first lobe only.
+  Outcome<std::vector<LoadedPoint>> loaded_points(double phase) {
     if (!tables_.contains(phase)) {
       auto table = backlash(gear_, **curve_, phase);
       if (!table) return table.failure();
       tables_.emplace(phase, std::move(table).value());
     }
-    const Backlash& table = tables_.at(phase);
-    std::vector<LoadedTooth> teeth;
-    for (std::size_t i = 0; i < table.tooth.size(); ++i) {
-      const ToothBacklash& drive = table.drive[i];
-      if (!drive.overlap) continue;
-      if (gear_.contact.lobes == 1 && std::abs(table.phi_rad[i]) > std::numbers::pi / 2) continue;
-      teeth.push_back({.tooth = table.tooth[i],
-                       .phi_rad = table.phi_rad[i],
-                       .backlash_mm = drive.backlash_mm,
-                       .contact_radius_mm = drive.contact_radius_mm,
-                       .pressure_angle_rad = gear_.contact.force_direction == ForceDirection::flank_normal
-                                                 ? contact_pressure_angle(gear_, (*curve_)->pose(table.phi_rad[i]), drive)
-                                                 : 0.0});
+    const UnitResponses& responses = *ring_->responses;
+    if (flanks_.empty()) {
+      for (const double z : responses.flank_z_mm) {
+        auto pair = FlankPair::make(gear_, face_coordinate(gear_.flexspline, z));
+        if (!pair) return pair.failure();
+        flanks_.push_back(std::move(pair).value());
+      }
     }
-    if (teeth.empty()) {
+    PoseSource pose = [&](int, double phi, int) { return (*curve_)->pose(phi); };
+    std::optional<AssembledPoses> assembled_poses;
+    if (gear_.contact.gaps == GapModel::assembled) {
+      const auto assembled = assembly(phase);
+      if (!assembled) return assembled.failure();
+      assembled_poses.emplace(ring_->compliance, **assembled, gear_.flexspline.neutral_radius_mm, phase,
+                              responses.flank_z_mm);
+      pose = [&](int sector, double phi, int slice) { return assembled_poses->pose(sector, phi, slice); };
+    }
+    std::vector<LoadedPoint> points = flank_points(gear_, responses, tables_.at(phase), flanks_, pose);
+    if (gear_.contact.lobes == 1) {
+      std::erase_if(points, [](const LoadedPoint& p) { return std::abs(p.phi_rad) > std::numbers::pi / 2; });
+    }
+    if (points.empty()) {
       return Failure{Status::no_overlap, "no flank of the flexspline reaches the circular spline in this window: "
                                          "no tooth can carry load"};
     }
-    return teeth;
+    return points;
   }
 
   std::optional<Failure> compliance() {
     StageClock clock(result_, "compliance");
-    auto teeth = loaded_teeth(0.0);
-    if (!teeth) return teeth.failure();
+    const auto points = loaded_points(0.0);
+    if (!points) return points.failure();
     const auto assembled = assembly(0.0);
     if (!assembled) return assembled.failure();
     const RingCompliance& ring = ring_->compliance;
-    const Eigen::MatrixXd d = frozen_compliance(ring, **assembled, tooth_functionals(ring, *teeth));
+    std::vector<LoadedPoint> of_teeth; // the point of least take-up of every tooth
+    for (const LoadedPoint& point : *points) {
+      if (of_teeth.empty() || of_teeth.back().tooth != point.tooth) {
+        of_teeth.push_back(point);
+      } else if (point.backlash_mm / point.contact_radius_mm <
+                 of_teeth.back().backlash_mm / of_teeth.back().contact_radius_mm) {
+        of_teeth.back() = point;
+      }
+    }
+    const Eigen::MatrixXd d = frozen_compliance(ring, **assembled, tooth_functionals(ring, of_teeth));
     ComplianceResult out;
-    for (const LoadedTooth& tooth : *teeth) out.tooth.push_back(tooth.tooth);
+    for (const LoadedPoint& point : of_teeth) out.tooth.push_back(point.tooth);
     for (Eigen::Index i = 0; i < d.rows(); ++i) {
       out.matrix_um_per_n.emplace_back();
       for (Eigen::Index j = 0; j < d.cols(); ++j) out.matrix_um_per_n.back().push_back(1e3 * d(i, j));
@@ -371,12 +333,12 @@ private:
     StageClock clock(result_, "load");
     const PhaseSource source = [&](double phase) -> Outcome<std::shared_ptr<const PhaseModel>> {
       if (const auto found = phases_.find(phase); found != phases_.end()) return found->second;
-      auto teeth = loaded_teeth(phase);
-      if (!teeth) return teeth.failure();
+      auto points = loaded_points(phase);
+      if (!points) return points.failure();
       auto assembled = assembly(phase);
       if (!assembled) return assembled.failure();
       auto model = std::make_shared<const PhaseModel>(gear_.contact, ring_->compliance, *surface_, *assembled,
-                                                      std::move(teeth).value());
+                                                      std::move(points).value());
       if (phases_.size() >= most_phases_kept) phases_.clear(); // some MB each
       phases_.emplace(phase, model);
       return model;
@@ -401,6 +363,8 @@ private:
   ContentKey ring_key_;
   std::shared_ptr<const Ring> ring_;
   std::optional<WaveGeneratorSurface> surface_;
+  double disc_shift_ = 0.0;
+  std::vector<FlankPair> flanks_; ///< one for each slice
   std::map<double, std::shared_ptr<const PhaseModel>> phases_;
 };
 

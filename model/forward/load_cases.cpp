@@ -35,21 +35,34 @@ LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction dir
   result.gap_correction_force_n = load.gap_correction_force_n;
   result.peak_phase = phase;
   const bool coast = direction == Direction::coast;
-  const std::size_t n = model.teeth().size();
+  const std::vector<LoadedPoint>& points = model.points();
+  const std::size_t n = points.size();
   for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t i = coast ? n - 1 - k : k; // ascending φ
-    const LoadedTooth& tooth = model.teeth()[i];
-    const double phi = (coast ? -tooth.phi_rad : tooth.phi_rad) / degree;
-    result.tooth.push_back(coast ? mirrored_tooth(tooth.tooth, phase) : tooth.tooth);
-    result.phi_deg.push_back(phi);
-    result.force_n.push_back(load.force_n[i]);
-    result.loaded_backlash_um.push_back(load.loaded_backlash_um[i]);
-    if (!(load.force_n[i] > 0.0)) continue;
-    if (result.engaged_count++ == 0) result.engaged_lo_deg = phi;
-    result.engaged_hi_deg = phi;
-    if (load.force_n[i] > result.peak_force_n) {
-      result.peak_force_n = load.force_n[i];
-      result.peak_phi_deg = phi;
+    const std::size_t i = coast ? n - 1 - k : k; // ascending φ; the points of a tooth stand together
+    const LoadedPoint& point = points[i];
+    const int tooth = coast ? mirrored_tooth(point.tooth, phase) : point.tooth;
+    if (result.tooth.empty() || result.tooth.back() != tooth) {
+      result.tooth.push_back(tooth);
+      result.phi_deg.push_back((coast ? -point.phi_rad : point.phi_rad) / degree);
+      result.force_n.push_back(0.0);
+      result.loaded_backlash_um.push_back(load.gap_um[i]);
+    }
+    result.force_n.back() += load.force_n[i];
+    result.loaded_backlash_um.back() = std::min(result.loaded_backlash_um.back(), load.gap_um[i]);
+    result.points.tooth.push_back(tooth);
+    result.points.flank_radius_mm.push_back(point.flank_radius_mm);
+    result.points.z_mm.push_back(point.z_mm);
+    result.points.force_n.push_back(load.force_n[i]);
+    result.points.gap_um.push_back(load.gap_um[i]);
+  }
+  if (result.tooth.size() == n) result.points = {}; // one point a tooth: nothing to add
+  for (std::size_t i = 0; i < result.tooth.size(); ++i) {
+    if (!(result.force_n[i] > 0.0)) continue;
+    if (result.engaged_count++ == 0) result.engaged_lo_deg = result.phi_deg[i];
+    result.engaged_hi_deg = result.phi_deg[i];
+    if (result.force_n[i] > result.peak_force_n) {
+      result.peak_force_n = result.force_n[i];
+      result.peak_phi_deg = result.phi_deg[i];
     }
   }
   return result;

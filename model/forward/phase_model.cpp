@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
 
 namespace strainwave {
 
 namespace {
+
+double take_up(const LoadedPoint& point) { return point.backlash_mm / point.contact_radius_mm; }
 
 /// The source text's way to a torque: march the rotation a little past it, read the rotation off the polygon of accepted
 /// points, march there. `beyond` only bounds the march.
@@ -26,104 +30,160 @@ ContactState march_to_torque(const ContactProblem& problem, double torque, doubl
 } // namespace
 
 PhaseModel::PhaseModel(const Contact& contact, const RingCompliance& ring, const WaveGeneratorSurface& surface,
-                       std::shared_ptr<const AssembledState> assembled, std::vector<LoadedTooth> teeth)
-    : contact_(contact), ring_(ring), surface_(surface), assembled_(std::move(assembled)), teeth_(std::move(teeth)),
-      load_(contact.fidelity == Fidelity::linear ? linear_problem(ring, *assembled_, teeth_)
-                                                 : unilateral_problem(ring, *assembled_, teeth_)) {}
+                       std::shared_ptr<const AssembledState> assembled, std::vector<LoadedPoint> points)
+    : contact_(contact), ring_(ring), surface_(surface), assembled_(std::move(assembled)), points_(std::move(points)),
+      first_(select(first_selection())) {}
 
 double PhaseModel::take_up_rad() const {
   double least = std::numeric_limits<double>::infinity();
-  for (const LoadedTooth& tooth : teeth_) least = std::min(least, tooth.backlash_mm / tooth.contact_radius_mm);
+  for (const LoadedPoint& point : points_) least = std::min(least, take_up(point));
   return std::max(0.0, least);
 }
 
-Outcome<PhaseLoad> PhaseModel::at_torque(double torque_nm, ContactSolver& solver) const {
-  const double torque = 1e3 * torque_nm / load_.lobes;
-  const auto start = solver.solve_torque(load_.problem, torque, assembled_guess());
-  if (!start) return start.failure();
-  if (contact_.method == LoadMethod::stepping) {
-    return finish(march_to_torque(load_.problem, torque, start->rotation, solver), Control::torque, solver);
+PhaseModel::Selection PhaseModel::select(std::vector<int> index) const {
+  Selection selection;
+  selection.index = std::move(index);
+  for (const int i : selection.index) selection.points.push_back(points_[static_cast<std::size_t>(i)]);
+  selection.load = contact_.fidelity == Fidelity::linear ? linear_problem(ring_, *assembled_, selection.points)
+                                                         : unilateral_problem(ring_, *assembled_, selection.points);
+  return selection;
+}
+
+std::vector<int> PhaseModel::first_selection() const {
+  std::map<std::pair<int, int>, int> least; // (tooth, slice) → point of least take-up
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const auto [at, fresh] = least.try_emplace({points_[i].tooth, points_[i].slice}, static_cast<int>(i));
+    if (!fresh && take_up(points_[i]) < take_up(points_[static_cast<std::size_t>(at->second)])) {
+      at->second = static_cast<int>(i);
+    }
   }
-  return finish(*start, Control::torque, solver);
+  std::vector<int> index;
+  for (const auto& [key, i] : least) index.push_back(i);
+  if (index.size() < points_.size()) {
+    std::stable_sort(index.begin(), index.end(), [&](int a, int b) {
+      return take_up(points_[static_cast<std::size_t>(a)]) < take_up(points_[static_cast<std::size_t>(b)]);
+    });
+    index.resize((index.size() + 1) / 2);
+  }
+  std::sort(index.begin(), index.end());
+  return index;
+}
+
+Outcome<PhaseLoad> PhaseModel::at_torque(double torque_nm, ContactSolver& solver) const {
+  return solve(Control::torque, 1e3 * torque_nm / first_.load.lobes, solver);
 }
 
 Outcome<PhaseLoad> PhaseModel::at_rotation(double rotation_rad, ContactSolver& solver) const {
-  if (contact_.method == LoadMethod::stepping && rotation_rad > 0.0) {
-    return finish(march(load_.problem, 0.0, rotation_rad, MarchOptions{}, solver).last, Control::rotation, solver);
+  return solve(Control::rotation, rotation_rad, solver);
+}
+
+Outcome<PhaseLoad> PhaseModel::solve(Control control, double value, ContactSolver& solver) const {
+  Selection grown;
+  const Selection* selection = &first_;
+  ActiveSet wall = assembled_->active; // first guess of the wall's set, from the assembly alone
+  for (int round = 1;; ++round) {
+    ActiveSet warm;
+    if (contact_.fidelity != Fidelity::linear) {
+      warm.assign(selection->index.size(), 0);
+      warm.insert(warm.end(), wall.begin(), wall.end());
+    }
+    auto solved = solve_selection(*selection, control, value, warm, solver);
+    if (!solved) return solved.failure();
+
+    PhaseLoad load = solved->load;
+    load.rounds = round;
+    load.force_n.assign(points_.size(), 0.0);
+    load.gap_um.assign(points_.size(), 0.0);
+    // every point's gap from the forces: closed ones of the selection check the solver, the others must not penetrate
+    const Eigen::VectorXd gap = gaps(points_, *selection, *solved);
+    std::vector<std::uint8_t> inside(points_.size(), 0);
+    for (std::size_t k = 0; k < selection->index.size(); ++k) {
+      const auto i = static_cast<std::size_t>(selection->index[k]);
+      const auto at = static_cast<Eigen::Index>(k);
+      inside[i] = 1;
+      load.force_n[i] = solved->state.force(at);
+      load.recomputed_gap_um =
+          std::max(load.recomputed_gap_um, 1e3 * std::abs(gap(static_cast<Eigen::Index>(i)) - solved->state.gap(at)));
+    }
+    const double rounding_mm = 1e-13 * std::max(1.0, load.certificate.gap_scale) + 1e-3 * load.recomputed_gap_um;
+    std::vector<int> index = selection->index;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const double g = gap(static_cast<Eigen::Index>(i));
+      const bool closed = inside[i] && load.force_n[i] > 0.0;
+      load.gap_um[i] = closed ? 0.0 : 1e3 * std::max(0.0, g) / std::cos(points_[i].pressure_angle_rad);
+      if (!inside[i] && g < -rounding_mm) index.push_back(static_cast<int>(i));
+    }
+    if (index.size() == selection->index.size()) return load;
+    std::sort(index.begin(), index.end());
+    if (contact_.fidelity != Fidelity::linear) {
+      wall.assign(solved->state.active.end() - static_cast<std::ptrdiff_t>(wall.size()), solved->state.active.end());
+    }
+    grown = select(std::move(index));
+    selection = &grown;
   }
-  return finish(solver.solve_at(load_.problem, rotation_rad, assembled_guess()), Control::rotation, solver);
 }
 
-ActiveSet PhaseModel::assembled_guess() const {
-  if (contact_.fidelity == Fidelity::linear) return {};
-  ActiveSet guess(static_cast<std::size_t>(load_.tooth_count), 0);
-  guess.insert(guess.end(), assembled_->active.begin(), assembled_->active.end());
-  return guess;
-}
-
-double PhaseModel::recomputed_gap_error(const ContactState& state, const Eigen::MatrixX2d* wall_force) const {
-  // d from the forces, piece by piece through the ring, not through the solver's matrix.
-  const Eigen::Index n = load_.tooth_count;
-  const Eigen::VectorXd tooth_force = state.force.head(n);
-  const Eigen::VectorXd own = ring_.tooth_tooth(load_.teeth) * tooth_force;
-  Eigen::VectorXd from_wall;
-  if (contact_.fidelity == Fidelity::linear) {
-    // the frozen wall: change of wall forces that keeps the closed stations where assembly put them
-    from_wall = load_.problem.m * tooth_force - own;
+Outcome<PhaseModel::Solved> PhaseModel::solve_selection(const Selection& selection, Control control, double value,
+                                                        const ActiveSet& warm, ContactSolver& solver) const {
+  const ContactProblem& problem = selection.load.problem;
+  Solved solved;
+  if (control == Control::torque) {
+    auto direct = solver.solve_torque(problem, value, warm);
+    if (!direct) return direct.failure();
+    solved.state = std::move(direct).value();
+    if (contact_.method == LoadMethod::stepping) {
+      solved.state = march_to_torque(problem, value, solved.state.rotation, solver);
+    }
+  } else if (contact_.method == LoadMethod::stepping && value > 0.0) {
+    solved.state = march(problem, 0.0, value, MarchOptions{}, solver).last;
   } else {
-    const Eigen::MatrixX2d change =
-        (wall_force ? *wall_force
-                    : Eigen::MatrixX2d(assembled_->normal.array().colwise() *
-                                       state.force.tail(assembled_->force_n.size()).array())) -
-        assembled_->force_components();
-    from_wall = -ring_.tooth_displacement(load_.teeth, assembled_->stations, change);
+    solved.state = solver.solve_at(problem, value, warm);
   }
-  double worst = 0.0;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const LoadedTooth& tooth = teeth_[static_cast<std::size_t>(i)];
-    const double cosine = std::cos(tooth.pressure_angle_rad);
-    const double gap = cosine * (tooth.backlash_mm - tooth.contact_radius_mm * state.rotation) + own(i) + from_wall(i);
-    worst = std::max(worst, std::abs(gap - state.gap(i)));
-  }
-  return worst;
-}
 
-Outcome<PhaseLoad> PhaseModel::finish(const ContactState& start, Control control, ContactSolver& solver) const {
-  PhaseLoad result;
-  const ContactState* state = &start;
-  std::optional<ExactLoad> exact;
+  PhaseLoad& load = solved.load;
   if (contact_.fidelity == Fidelity::linear) {
-    result.certificate = certify(load_.problem, start);
+    load.certificate = certify(problem, solved.state);
   } else if (contact_.disc_gap == DiscGap::linearised) {
-    result.certificate = certify(load_.problem, start);
-    const Eigen::VectorXd wall = start.force.tail(assembled_->force_n.size());
-    result.disc_force_n =
-        wall_resultant(assembled_->stations, assembled_->normal.array().colwise() * wall.array())(0);
+    load.certificate = certify(problem, solved.state);
+    const Eigen::VectorXd wall = solved.state.force.tail(assembled_->force_n.size());
+    solved.wall_force = assembled_->normal.array().colwise() * wall.array();
   } else {
-    auto corrected = correct_to_exact_gap(ring_, surface_, *assembled_, load_, start, control, solver);
-    if (!corrected) return corrected.failure();
-    exact = std::move(corrected).value();
-    state = &exact->state;
-    result.certificate = exact->certificate;
-    result.exact_gap_residual_um = 1e3 * exact->residual_mm;
-    result.gap_correction_rotation_rad = exact->correction_rotation_rad;
-    result.gap_correction_force_n = exact->correction_force_n;
-    result.disc_force_n = wall_resultant(assembled_->stations, exact->wall_force)(0);
+    auto exact =
+        correct_to_exact_gap(ring_, surface_, *assembled_, selection.load, solved.state, control, solver);
+    if (!exact) return exact.failure();
+    load.certificate = exact->certificate;
+    load.exact_gap_residual_um = 1e3 * exact->residual_mm;
+    load.gap_correction_rotation_rad = exact->correction_rotation_rad;
+    load.gap_correction_force_n = exact->correction_force_n;
+    solved.wall_force = exact->wall_force;
+    solved.state = exact->state;
   }
-  result.recomputed_gap_um = 1e3 * recomputed_gap_error(*state, exact ? &exact->wall_force : nullptr);
-  result.largest_displacement_mm = load_.problem.m.diagonal().maxCoeff() * state->force.sum();
-  result.rounding_um =
-      1e3 * gap_rounding_mm(load_.problem.size(), surface_.inner_radius_mm(), result.largest_displacement_mm);
-  result.rotation_rad = state->rotation;
-  result.torque_nm = 1e-3 * load_.lobes * state->torque;
-  result.tangent_nm_per_rad = 1e-3 * load_.lobes * state->stiffness;
-  result.contact = state->contact;
-  for (std::size_t i = 0; i < teeth_.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    result.force_n.push_back(state->force(at));
-    result.loaded_backlash_um.push_back(1e3 * std::max(0.0, state->gap(at)) / std::cos(teeth_[i].pressure_angle_rad));
+  if (solved.wall_force.size() > 0) load.disc_force_n = wall_resultant(assembled_->stations, solved.wall_force)(0);
+  load.largest_displacement_mm = problem.m.diagonal().maxCoeff() * solved.state.force.sum();
+  load.rounding_um = 1e3 * gap_rounding_mm(problem.size(), surface_.inner_radius_mm(), load.largest_displacement_mm);
+  load.rotation_rad = solved.state.rotation;
+  load.torque_nm = 1e-3 * selection.load.lobes * solved.state.torque;
+  load.tangent_nm_per_rad = 1e-3 * selection.load.lobes * solved.state.stiffness;
+  load.contact = solved.state.contact;
+  return solved;
+}
+
+Eigen::VectorXd PhaseModel::gaps(std::span<const LoadedPoint> of, const Selection& selection,
+                                 const Solved& solved) const {
+  const std::vector<ToothFunctional> functionals = tooth_functionals(ring_, of);
+  const Eigen::VectorXd force = solved.state.force.head(selection.load.point_count);
+  // Wall forces beyond those of the assembly; with the wall frozen: the reaction that keeps it where it stands.
+  const Eigen::MatrixX2d change = contact_.fidelity == Fidelity::linear
+                                      ? frozen_reaction(ring_, *assembled_, selection.load.points, force)
+                                      : Eigen::MatrixX2d(solved.wall_force - assembled_->force_components());
+  Eigen::VectorXd gap = ring_.tooth_displacement(functionals, selection.load.points, force) -
+                        ring_.tooth_displacement(functionals, assembled_->stations, change);
+  for (Eigen::Index i = 0; i < gap.size(); ++i) {
+    const LoadedPoint& point = of[static_cast<std::size_t>(i)];
+    gap(i) += std::cos(point.pressure_angle_rad) *
+              (point.backlash_mm - point.contact_radius_mm * solved.state.rotation);
   }
-  return result;
+  return gap;
 }
 
 } // namespace strainwave

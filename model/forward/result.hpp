@@ -39,6 +39,7 @@ struct AssemblyResult {
   double contact_lo_deg = 0.0;
   double contact_hi_deg = 0.0;
   double radial_deformation_mm = 0.0; ///< inner wall at the major axis, mid face
+  double disc_shift_mm = 0.0;         ///< of each disc outwards, so that u0 is met at contact.reference_section_mm
   int newton_steps = 0;
 };
 
@@ -46,6 +47,15 @@ struct ComplianceResult {
   std::vector<int> tooth;
   std::vector<std::vector<double>> matrix_um_per_n; ///< contact frozen as assembled, both lobes loaded
   double reciprocity_error = 0.0;
+};
+
+/// Loads and gaps over flank and face, with more than one point a tooth. Both lobes alike.
+struct PointResults {
+  std::vector<int> tooth;
+  std::vector<double> flank_radius_mm; ///< on the undeformed flexspline
+  std::vector<double> z_mm;
+  std::vector<double> force_n;
+  std::vector<double> gap_um; ///< loaded; 0 where closed
 };
 
 struct LoadResult {
@@ -67,6 +77,7 @@ struct LoadResult {
   std::optional<double> transmission_error_arcsec; ///< peak to peak over the phases of one pitch, at constant torque
   double gap_correction_rotation_rad = 0.0; ///< exact disc gap against the linearised one
   double gap_correction_force_n = 0.0;
+  PointResults points; ///< empty with one point a tooth
 };
 
 struct StiffnessResult {

@@ -66,6 +66,14 @@ void put_load(const LoadResult& load, Group& group) {
   group.put("peak_phase", "1", load.peak_phase);
   group.put("tangent_stiffness", "N.m/rad", load.tangent_stiffness_nm_per_rad);
   group.put("disc_force", "N", load.disc_force_n);
+  if (!load.points.tooth.empty()) {
+    Group points(group.id(), "points");
+    points.put("tooth", load.points.tooth);
+    points.put("flank_radius", "mm", load.points.flank_radius_mm);
+    points.put("z", "mm", load.points.z_mm);
+    points.put("force", "N", load.points.force_n);
+    points.put("gap", "um", load.points.gap_um);
+  }
   if (load.transmission_error_arcsec) group.put("transmission_error", "arcsec", *load.transmission_error_arcsec);
 }
 
@@ -92,6 +100,7 @@ void put_all(const ForwardResult& result, hid_t file) {
     group.put("contact_force", "N", a->contact_force_n);
     group.put("contact_phi", "deg", {a->contact_lo_deg, a->contact_hi_deg});
     group.put("radial_deformation", "mm", a->radial_deformation_mm);
+    group.put("disc_shift", "mm", a->disc_shift_mm);
   }
   if (const auto& c = result.compliance) {
     Group group(file, "compliance");

@@ -49,6 +49,13 @@ Json load_json(const LoadResult& load) {
   if (load.transmission_error_arcsec) json["transmission_error_arcsec"] = *load.transmission_error_arcsec;
   json["gap_correction"] = {{"rotation_rad", load.gap_correction_rotation_rad},
                             {"force_n", load.gap_correction_force_n}};
+  if (!load.points.tooth.empty()) {
+    json["points"] = {{"tooth", load.points.tooth},
+                      {"height_mm", numbers(load.points.flank_radius_mm)},
+                      {"z_mm", numbers(load.points.z_mm)},
+                      {"force_n", numbers(load.points.force_n)},
+                      {"gap_um", numbers(load.points.gap_um)}};
+  }
   return json;
 }
 
@@ -82,6 +89,7 @@ Json result_json(const ForwardResult& result) {
     json["assembly"] = {{"contact_force_n", a->contact_force_n},
                         {"contact_phi_deg", {a->contact_lo_deg, a->contact_hi_deg}},
                         {"radial_deformation_mm", a->radial_deformation_mm},
+                        {"disc_shift_mm", a->disc_shift_mm},
                         {"newton_steps", a->newton_steps}};
   }
   if (const auto& c = result.compliance) {

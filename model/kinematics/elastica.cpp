@@ -1,23 +1,15 @@
 // Two discs, geometrically exact: an inextensible elastica of length 2 pi r_m on two rigid discs (centres
 // (+-e, 0), radius R = r_m + u0 - e to the neutral line). On the disc the curve is the arc; the free part
-// obeys psi'' = h sin psi.
-//
-// shooting.hpp finds the solution to about 1e-9. Here it is brought to rounding and stored: with t in [-1, 1]
-// along the free arc of half-length l, psi at n Chebyshev points satisfies the integrated equation
-//     psi(t) = pi/2 + a + (l/R)(t + 1) + l^2 h int int sin psi,     psi(1) = pi,     e + R cos a + l int cos
-//     psi = 0, and  e = given  or  polar lift-off angle = given,
-// n + 3 equations for psi, a, h, e, solved by Newton (two steps). The same factorization gives the
-// derivatives with respect to r_m, u0 and the given number (implicit differentiation). A pose is then one sum
-// of three series. Seed gear: lift-off at 50.342648 degrees about the disc's centre, N/EI = -0.00210823
-// mm^-2.
+// obeys psi'' = h sin psi. shooting.hpp finds the solution to about 1e-9, collocation.hpp brings it to
+// rounding; here it is stored as series of x, y, psi along the free arc, beside the series of their
+// derivatives, so that a pose is one sum. Seed gear: lift-off at 50.342648 degrees about the disc's centre,
+// N/EI = -0.00210823 mm^-2.
 
-#include "model/kinematics/chebyshev.hpp"
+#include "model/kinematics/collocation.hpp"
 #include "model/kinematics/curve_shape.hpp"
 #include "model/kinematics/derivative.hpp"
-#include "model/kinematics/shooting.hpp"
 #include "model/kinematics/wrap.hpp"
 
-#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -30,103 +22,16 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double quarter = 0.5 * pi;
 
-/// The integrated equations at n points. Unknowns: psi at the points, then a, h, e.
-class Collocation {
-public:
-  Collocation(const ElasticaProblem& problem, int points) : problem_(problem), grid_(chebyshev_grid(points)) {
-    twice_ = grid_.integral * grid_.integral;
-  }
-
-  const ChebyshevGrid& grid() const { return grid_; }
-
-  Eigen::VectorXd start(const LiftOff& lift_off) const {
-    const double radius = problem_.neutral_radius_mm + problem_.u0_mm - lift_off.eccentricity_mm;
-    const double half = 0.5 * (quarter * problem_.neutral_radius_mm - radius * lift_off.arc_rad);
-    Eigen::VectorXd x(grid_.size + 3);
-    // From lift-off to pi with the given initial curvature: near enough for Newton, the true psi is almost
-    // straight.
-    for (int j = 0; j < grid_.size; ++j) {
-      const double way = 0.5 * (grid_.nodes[j] + 1.0), begin = quarter + lift_off.arc_rad;
-      const double slope = 2.0 * half / radius;
-      x[j] = begin + slope * way + (pi - begin - slope) * way * way;
-    }
-    x.tail<3>() << lift_off.arc_rad, lift_off.n_over_ei_per_mm2, lift_off.eccentricity_mm;
-    return x;
-  }
-
-  /// Residual F, Jacobian dF/dx, and dF/d(r_m, u0, given).
-  void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& f, Eigen::MatrixXd& jacobian,
-                Eigen::Matrix<double, Eigen::Dynamic, 3>& by_parameter) const {
-    const int n = grid_.size;
-    const double a = x[n], h = x[n + 1], e = x[n + 2];
-    const double radius = problem_.neutral_radius_mm + problem_.u0_mm - e;
-    const double half = 0.5 * (quarter * problem_.neutral_radius_mm - radius * a);
-    // Derivatives of R and l with respect to a, e and to r_m, u0.
-    const double half_a = -0.5 * radius, half_e = 0.5 * a, half_rm = 0.5 * (quarter - a), half_u0 = -0.5 * a;
-    const double ratio = half / radius; // l/R
-    const auto ratio_by = [&](double half_by, double radius_by) {
-      return (half_by - ratio * radius_by) / radius;
-    };
-
-    const Eigen::VectorXd sine = x.head(n).array().sin(), cosine = x.head(n).array().cos();
-    const Eigen::VectorXd forward = grid_.nodes.array() + 1.0, bend = twice_ * sine;
-    const Eigen::VectorXd weights = grid_.integral.row(n - 1).transpose();
-    const double half2_h = half * half * h, width = weights.dot(cosine);
-
-    f.resize(n + 3);
-    f.head(n) = x.head(n) - Eigen::VectorXd::Constant(n, quarter + a) - ratio * forward - half2_h * bend;
-    f[n] = x[n - 1] - pi;
-    f[n + 1] = e + radius * std::cos(a) + half * width;
-    const double lx = e + radius * std::cos(a), ly = radius * std::sin(a);
-    f[n + 2] = problem_.eccentricity_given ? e - problem_.given : std::atan2(ly, lx) - problem_.given;
-
-    jacobian.setZero(n + 3, n + 3);
-    jacobian.topLeftCorner(n, n) = -half2_h * (twice_ * cosine.asDiagonal());
-    jacobian.topLeftCorner(n, n).diagonal().array() += 1.0;
-    const auto equation_by = [&](double half_by, double radius_by) -> Eigen::VectorXd {
-      return -ratio_by(half_by, radius_by) * forward - (2.0 * half * half_by * h) * bend;
-    };
-    jacobian.col(n).head(n) = equation_by(half_a, 0.0).array() - 1.0;
-    jacobian.col(n + 1).head(n) = -half * half * bend;
-    jacobian.col(n + 2).head(n) = equation_by(half_e, -1.0);
-    jacobian(n, n - 1) = 1.0;
-    jacobian.row(n + 1).head(n) = -half * weights.cwiseProduct(sine).transpose();
-    jacobian(n + 1, n) = -radius * std::sin(a) + half_a * width;
-    jacobian(n + 1, n + 2) = 1.0 - std::cos(a) + half_e * width;
-    by_parameter.setZero(n + 3, 3);
-    by_parameter.col(0).head(n) = equation_by(half_rm, 1.0);
-    by_parameter.col(1).head(n) = equation_by(half_u0, 1.0);
-    by_parameter(n + 1, 0) = std::cos(a) + half_rm * width;
-    by_parameter(n + 1, 1) = std::cos(a) + half_u0 * width;
-    by_parameter(n + 2, 2) = -1.0;
-    if (problem_.eccentricity_given) {
-      jacobian(n + 2, n + 2) = 1.0;
-    } else {
-      const double square = lx * lx + ly * ly;
-      const auto polar_by = [&](double x_by, double y_by) { return (lx * y_by - ly * x_by) / square; };
-      jacobian(n + 2, n) = polar_by(-radius * std::sin(a), radius * std::cos(a));
-      jacobian(n + 2, n + 2) = polar_by(1.0 - std::cos(a), -std::sin(a));
-      by_parameter(n + 2, 0) = by_parameter(n + 2, 1) = polar_by(std::cos(a), std::sin(a));
-    }
-  }
-
-private:
-  ElasticaProblem problem_;
-  const ChebyshevGrid& grid_;
-  Eigen::MatrixXd twice_;
-};
-
 class Elastica final : public CurveShape {
 public:
-  /// Solution x of the collocation and its derivatives (one column each for r_m, u0, given number).
-  Elastica(const ElasticaProblem& problem, const ChebyshevGrid& grid, const Eigen::VectorXd& x,
-           const Eigen::Matrix<double, Eigen::Dynamic, 3>& dx)
-      : radius_m_(problem.neutral_radius_mm), size_(grid.size) {
+  Elastica(const ElasticaProblem& problem, const FreeArcSolution& solution)
+      : radius_m_(problem.neutral_radius_mm), size_(solution.grid->size) {
+    const ChebyshevGrid& grid = *solution.grid;
     const int n = size_;
     const Number rm(radius_m_, 3, 0), u0(problem.u0_mm, 3, 1);
-    arc_ = Number(x[n], dx.row(n).transpose());
-    e_ = Number(x[n + 2], dx.row(n + 2).transpose());
-    n_over_ei_ = x[n + 1];
+    arc_ = Number(solution.lift_off.arc_rad, solution.lift_off_by.row(0).transpose());
+    e_ = Number(solution.lift_off.eccentricity_mm, solution.lift_off_by.row(1).transpose());
+    n_over_ei_ = solution.lift_off.n_over_ei_per_mm2;
     radius_ = rm + u0 - e_;
     lift_off_s_ = radius_ * arc_;
     half_ = Number(0.5 * (quarter * rm - lift_off_s_));
@@ -134,14 +39,14 @@ public:
     lift_off_polar_ = std::atan2(lift_y.value(), lift_x.value());
     // x, y, psi at the nodes, then their derivatives with respect to each parameter at fixed t.
     Eigen::MatrixXd at_nodes(n, 12);
-    const Eigen::VectorXd sine = x.head(n).array().sin(), cosine = x.head(n).array().cos();
+    const Eigen::VectorXd sine = solution.psi.array().sin(), cosine = solution.psi.array().cos();
     const Eigen::VectorXd along_x = grid.integral * cosine, along_y = grid.integral * sine;
     const double half = half_.value();
     at_nodes.col(0) = half * along_x.array() + lift_x.value();
     at_nodes.col(1) = half * along_y.array() + lift_y.value();
-    at_nodes.col(2) = x.head(n);
+    at_nodes.col(2) = solution.psi;
     for (Eigen::Index p = 0; p < 3; ++p) {
-      const Eigen::VectorXd turn = dx.col(p).head(n);
+      const Eigen::VectorXd turn = solution.psi_by.col(p);
       at_nodes.col(3 + 3 * p) = half_.derivatives()[p] * along_x.array() + lift_x.derivatives()[p] -
                                 (half * (grid.integral * sine.cwiseProduct(turn))).array();
       at_nodes.col(4 + 3 * p) = half_.derivatives()[p] * along_y.array() + lift_y.derivatives()[p] +
@@ -296,47 +201,28 @@ MadeShape make_elastica(const WaveGenerator& generator, double radius) {
   if (!shot)
     return shot.failure();
 
-  for (int points : {16, 24, 32, 48, 64}) {
-    const Collocation collocation(problem, points);
-    Eigen::VectorXd x = collocation.start(*shot), residual;
-    Eigen::MatrixXd jacobian;
-    Eigen::Matrix<double, Eigen::Dynamic, 3> by_parameter;
-    Eigen::PartialPivLU<Eigen::MatrixXd> factors;
-    double step = 1.0;
-    for (int iteration = 0; iteration < 12 && step > 1e-13; ++iteration) {
-      collocation.evaluate(x, residual, jacobian, by_parameter);
-      factors.compute(jacobian);
-      const Eigen::VectorXd correction = factors.solve(residual);
-      x -= correction;
-      step = correction.head(points).cwiseAbs().maxCoeff();
-    }
-    if (!(step < 1e-11))
-      continue;
-    const Eigen::VectorXd series = collocation.grid().coefficients * x.head(points);
-    if (chebyshev_tail(series) > 1e-15 && points < 64)
-      continue;
-    const double arc = x[points];
-    // Two ways to the same numbers: CVODES + KINSOL, and the collocation. Errors of the shooting reach the
-    // arc r_m/u0-fold.
-    if (!(std::abs(arc - shot->arc_rad) < 1e-8 * radius / u0))
-      return not_converged(problem,
-                           fmt::format("shooting and collocation disagree on the lift-off arc: {} and {} rad",
-                                       shot->arc_rad, arc));
-    if (!(arc > 0.0))
-      return Failure{
-          Status::no_wrap,
-          fmt::format(
-              "two_disc_exact: the discs do not wrap the flexspline at e/u0 = {:.4f}: the lift-off angle "
-              "{:.4f} degrees is not positive (first order wraps up to 5.279, the exact curve a little "
-              "less as u0/r_m grows)",
-              wrap->eccentricity_mm / u0, arc * 180.0 / pi)};
-    const Eigen::Matrix<double, Eigen::Dynamic, 3> derivatives = -factors.solve(by_parameter);
-    auto elastica = std::make_shared<Elastica>(problem, collocation.grid(), x, derivatives);
-    if (auto failure = check_wrap_agreement(generator, *elastica->summary().wrap_angle_rad))
-      return *failure;
-    return std::shared_ptr<const CurveShape>(std::move(elastica));
-  }
-  return not_converged(problem, "no smooth free arc was found");
+  const auto solution = collocate(problem, *shot);
+  if (!solution)
+    return not_converged(problem, "no smooth free arc was found");
+  const double arc = solution->lift_off.arc_rad;
+  // Two ways to the same numbers: CVODES + KINSOL, and the collocation. Errors of the shooting reach the arc
+  // r_m/u0-fold.
+  if (!(std::abs(arc - shot->arc_rad) < 1e-8 * radius / u0))
+    return not_converged(problem,
+                         fmt::format("shooting and collocation disagree on the lift-off arc: {} and {} rad",
+                                     shot->arc_rad, arc));
+  if (!(arc > 0.0))
+    return Failure{
+        Status::no_wrap,
+        fmt::format(
+            "two_disc_exact: the discs do not wrap the flexspline at e/u0 = {:.4f}: the lift-off angle "
+            "{:.4f} degrees is not positive (first order wraps up to 5.279, the exact curve a little "
+            "less as u0/r_m grows)",
+            wrap->eccentricity_mm / u0, arc * 180.0 / pi)};
+  auto elastica = std::make_shared<Elastica>(problem, *solution);
+  if (auto failure = check_wrap_agreement(generator, *elastica->summary().wrap_angle_rad))
+    return *failure;
+  return std::shared_ptr<const CurveShape>(std::move(elastica));
 }
 
 } // namespace strainwave

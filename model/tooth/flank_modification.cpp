@@ -71,9 +71,9 @@ std::optional<Failure> find_added_material(const FlankModification& m, Member me
     return contradiction(fmt::format("end_relief_um {} needs end_relief_length_mm > 0", m.end_relief_um));
 
   const RemovalLaw<double> law = law_of(m, member, 0.0, face_width_mm);
-  std::vector<double> heights = law.breaks();
-  heights.push_back(0.0);
-  heights.push_back(1.0);
+  std::vector<double> heights{0.0, 1.0};
+  for (const Break<double>& b : law.breaks())
+    heights.push_back(b.height);
   std::sort(heights.begin(), heights.end());
   const Least profile = least([&](double h) { return law.at(h).depth - law.lead; }, heights);
   std::vector<double> sections{-1.0, 0.0, 1.0};

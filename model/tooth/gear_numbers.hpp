@@ -135,6 +135,14 @@ ToothPair<T> tooth_pair(const GearNumbers<T>& g, int flexspline_teeth, int circu
   pair.flexspline.removal = removal_law(g.on_flexspline, Member::flexspline, zeta, g.face_width);
   pair.circular_spline.removal =
       removal_law(g.on_circular_spline, Member::circular_spline, zeta, g.face_width);
+  // At a base circle inside the flank, removal would fold the tooth's flank back on itself (r_b t < m): it
+  // starts beyond.
+  Flank<T>& tooth = pair.flexspline;
+  if (value_of(tooth.base) * value_of(tooth.t_inner) < value_of(tooth.removed(tooth.t_inner).depth))
+    tooth.t_inner = newton(tooth.t_inner, [&](const T& t) {
+      const Removed<T> m = tooth.removed(t);
+      return T(T(tooth.base * t - m.depth) / T(tooth.base - m.slope));
+    });
   return pair;
 }
 

@@ -13,16 +13,21 @@ struct FlankPair::Prepared {
   double teeth_ratio = 0.0; ///< z1/z2
   double zeta = 0.0;
   double inner_radius = 0.0,
-         outer_radius = 0.0;                  ///< circular-spline flank's end points, modification included
-  std::vector<double> flexspline_breaks;      ///< roll angles
-  std::vector<double> circular_spline_breaks; ///< radii
+         outer_radius = 0.0; ///< circular-spline flank's end points, modification included
+  /// Where the modification is not smooth: at = roll angle on the flexspline, radius on the circular spline.
+  struct BreakAt {
+    double at;
+    bool sharp;
+  };
+  std::vector<BreakAt> flexspline_breaks, circular_spline_breaks;
 };
 
 /// A point of the flexspline flank that ends a smooth stretch of gap(t).
 struct Mark {
   double t;
   ContactPlace place;
-  int kink;
+  int kink = 0;
+  bool sharp = false; ///< the slope of the gap jumps here
 };
 
 /// Where both flanks exist, in roll angles of the flexspline.
@@ -35,6 +40,9 @@ std::optional<Stretch> shared_stretch(const FlankPair::Prepared&, const Placemen
 /// Roll angle of the flexspline flank point at this distance from the gear's axis.
 double roll_at(const FlankPair::Prepared&, const Placement<double>&, double root_radius, double tip_radius,
                double radius);
+
+/// The backlash of one placed tooth.
+ToothBacklash least_gap(const FlankPair::Prepared&, const Placement<double>&);
 
 /// The teeth a gear's window selects, for one phase: index, folded material angle, lobe; ascending on each
 /// lobe.
@@ -85,10 +93,10 @@ ContactDerivatives<M - 1> contact_derivatives(const ToothPair<Dual<M>>& pair, co
     t = meet(space.t_outer);
     break;
   case ContactPlace::flexspline_kink:
-    t = tooth.roll_at_height(tooth.removal.breaks()[static_cast<std::size_t>(found.kink)]);
+    t = tooth.roll_at_height(tooth.removal.breaks()[static_cast<std::size_t>(found.kink)].height);
     break;
   case ContactPlace::circular_spline_kink:
-    t = meet(space.roll_at_height(space.removal.breaks()[static_cast<std::size_t>(found.kink)]));
+    t = meet(space.roll_at_height(space.removal.breaks()[static_cast<std::size_t>(found.kink)].height));
     break;
   }
   const Gap<T> at = flank_gap(pair, place, t);

@@ -16,6 +16,13 @@ struct Removed {
   T slope;
 };
 
+/// A place where the removal is not smooth; sharp: its slope jumps (else only a higher derivative does).
+template <class T>
+struct Break {
+  T height;
+  bool sharp;
+};
+
 /// Second derivatives at equidistant knots (spacing w) of the natural spline, times w^2/6: linear in the knot
 /// values.
 template <class T>
@@ -103,16 +110,16 @@ struct RemovalLaw {
     return sum;
   }
 
-  /// Flank coordinates where a derivative of the removal jumps, in a fixed order.
-  std::vector<T> breaks() const {
-    std::vector<T> list;
+  /// Flank coordinates where the removal is not smooth, in a fixed order.
+  std::vector<Break<T>> breaks() const {
+    std::vector<Break<T>> list;
     const auto height = [&](const T& q) { return on_tip_side_down ? T(1.0 - q) : T(q); };
     if (value_of(tip_relief) != 0.0)
-      list.push_back(height(tip_start));
+      list.push_back({height(tip_start), value_of(tip_power) == 1.0});
     if (value_of(root_relief) != 0.0)
-      list.push_back(height(root_start));
+      list.push_back({height(root_start), true});
     for (std::size_t i = 1; i + 1 < knots.size(); ++i)
-      list.push_back(T(static_cast<double>(i) / static_cast<double>(knots.size() - 1)));
+      list.push_back({T(static_cast<double>(i) / static_cast<double>(knots.size() - 1)), false});
     return list;
   }
 

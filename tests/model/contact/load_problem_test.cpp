@@ -28,10 +28,11 @@ protected:
       teeth.push_back({.tooth = tooth,
                        .phi_rad = 2 * std::numbers::pi * tooth / 140,
                        .backlash_mm = json["backlash_mm"][i],
-                       .contact_radius_mm = json["contact_radius_mm"][i]});
+                       .contact_radius_mm = json["contact_radius_mm"][i],
+                       .flank_radius_mm = 14.584});
     }
     // the reference loads every tooth at its tip
-    for (const LoadedTooth& tooth : teeth) at_tip.push_back(ring.tooth(tooth.tooth, 14.584, 1.0, 0.0));
+    for (const LoadedPoint& tooth : teeth) at_tip.push_back(ring.tooth(tooth.tooth, 14.584, 1.0, 0.0));
   }
 
   UnitResponses cup;
@@ -39,7 +40,7 @@ protected:
   WaveGeneratorSurface surface;
   ContactSolver solver;
   AssembledState assembled;
-  std::vector<LoadedTooth> teeth;
+  std::vector<LoadedPoint> teeth;
   std::vector<ToothFunctional> at_tip;
 };
 

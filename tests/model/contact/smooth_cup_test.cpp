@@ -114,7 +114,7 @@ TEST_F(SmoothCup, TurnsUnderATorqueCoupleAsTheIndependentProgramSays) {
   const Eigen::MatrixXd wall = ring.wall_tooth(assembled.stations, assembled.normal, spread) * s;
   const auto m = assembled.force_n.size();
   LoadProblem load;
-  load.tooth_count = 1;
+  load.point_count = 1;
   load.problem.m.resize(m + 1, m + 1);
   load.problem.m(0, 0) = s.dot(ring.tooth_tooth(spread) * s);
   load.problem.m.bottomLeftCorner(m, 1) = -wall;

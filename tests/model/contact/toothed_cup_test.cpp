@@ -4,6 +4,8 @@
 #include "model/contact/load_problem.hpp"
 #include "model/flexspline/responses.hpp"
 
+#include "tests/model/contact/reference_cup.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -11,21 +13,31 @@
 namespace strainwave {
 namespace {
 
-Eigen::MatrixXd compliance_at(double radius_mm) {
+const UnitResponses& seed_responses() {
   static const UnitResponses responses = [] {
     const Gear gear = seed_gear();
     ResponseRequest request;
     request.flexspline = gear.flexspline;
     request.material = gear.material;
     request.mesh = gear.mesh;
+    request.mesh.tooth_height = 4;
+    request.flank_heights = 9; // hats 0.11 mm wide: near to the edge lines of the reference
     request.estimate = false;
     return unit_responses(request).value();
   }();
-  const RingCompliance ring(responses, {22.5, 24.5, 26.5}, true);
-  const WaveGeneratorSurface discs(
-      {.eccentricity_mm = 0.6, .neutral_disc_radius_mm = 13.606, .linearised = true, .middle_z_mm = 24.5}, 13.856, 0.15);
+  return responses;
+}
+
+WaveGeneratorSurface seed_discs(bool linearised) {
+  return {WaveGeneratorSurface::Discs{
+              .eccentricity_mm = 0.6, .neutral_disc_radius_mm = 13.606, .linearised = linearised, .middle_z_mm = 24.5},
+          13.856, 0.15};
+}
+
+Eigen::MatrixXd compliance_at(double radius_mm) {
+  const RingCompliance ring(seed_responses(), {22.5, 24.5, 26.5}, true);
   ContactSolver solver;
-  const AssembledState assembled = assemble(ring, discs, 0.0, solver).value();
+  const AssembledState assembled = assemble(ring, seed_discs(true), 0.0, solver).value();
   std::vector<ToothFunctional> teeth;
   for (int tooth = -7; tooth <= 20; ++tooth) teeth.push_back(ring.tooth(tooth, radius_mm, 1.0, 0.0));
   return frozen_compliance(ring, assembled, teeth);
@@ -55,6 +67,60 @@ TEST_P(ToothedCupOnTheDiscs, ComplianceIsSymmetricAndPositiveDefinite) {
 INSTANTIATE_TEST_SUITE_P(Heights, ToothedCupOnTheDiscs,
                          ::testing::Values(Height{14.37, {89.7, 87.2, 85.9, 85.1}},
                                            Height{14.584, {93.6, 87.7, 85.2, 84.1}}));
+
+// Section "what the source text reports": every tooth loaded at its tip, backlash and lever arms of the exact discs.
+struct Column {
+  bool unilateral, linearised_gap;
+  double torque_nm[4]; ///< at 1e-3, 2e-3, 3.38e-3, 4.5e-3 rad
+  double peak_n;       ///< at 3.38e-3 rad
+  double zone_lo_deg, zone_hi_deg;
+};
+
+class SeedGearLoadedAtTheTips : public ::testing::TestWithParam<Column> {};
+
+TEST_P(SeedGearLoadedAtTheTips, ReproducesTheIndependentColumn) {
+  const Column& column = GetParam();
+  const RingCompliance ring(seed_responses(), {22.5, 24.5, 26.5}, true);
+  const WaveGeneratorSurface discs = seed_discs(column.linearised_gap);
+  ContactSolver solver;
+  const AssembledState assembled = assemble(ring, discs, 0.0, solver).value();
+  const auto json = testing::reference("load-path.json");
+  std::vector<LoadedPoint> points;
+  for (std::size_t i = 0; i < json["tooth"].size(); ++i) {
+    points.push_back({.tooth = json["tooth"][i],
+                      .backlash_mm = json["backlash_mm"][i],
+                      .contact_radius_mm = json["contact_radius_mm"][i],
+                      .flank_radius_mm = 14.584});
+  }
+  const LoadProblem load =
+      column.unilateral ? unilateral_problem(ring, assembled, points) : linear_problem(ring, assembled, points);
+  const double rotation[4] = {1e-3, 2e-3, 3.38e-3, 4.5e-3};
+  for (int i = 0; i < 4; ++i) {
+    ContactState state = solver.solve_at(load.problem, rotation[i]);
+    if (column.unilateral && !column.linearised_gap) {
+      state = correct_to_exact_gap(ring, discs, assembled, load, state, Control::rotation, solver).value().state;
+    }
+    EXPECT_NEAR(2e-3 * state.torque, column.torque_nm[i], 0.04 * column.torque_nm[i]) << rotation[i];
+    if (i != 2) continue;
+    // 10 %: the footprint of our hats is wider than the reference's edge line, so the tooth is stiffer at its tip
+    EXPECT_NEAR(state.force.head(load.point_count).maxCoeff(), column.peak_n, 0.10 * column.peak_n);
+    double lo = 90.0;
+    double hi = -90.0;
+    const double tooth = 360.0 / 140.0;
+    for (int k = 0; k < load.point_count; ++k) {
+      if (!(state.force(k) > 0.0)) continue;
+      lo = std::min(lo, tooth * points[static_cast<std::size_t>(k)].tooth);
+      hi = std::max(hi, tooth * points[static_cast<std::size_t>(k)].tooth);
+    }
+    EXPECT_NEAR(lo, column.zone_lo_deg, 1.01 * tooth);
+    EXPECT_NEAR(hi, column.zone_hi_deg, 1.01 * tooth);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Columns, SeedGearLoadedAtTheTips,
+                         ::testing::Values(Column{false, true, {3.3, 7.9, 14.5, 19.9}, 84.0, -5.14, 15.43},
+                                           Column{true, true, {2.79, 5.81, 11.3, 16.3}, 58.4, -10.29, 15.43},
+                                           Column{true, false, {3.02, 6.26, 11.85, 16.9}, 61.5, -7.71, 15.43}));
 
 } // namespace
 } // namespace strainwave

@@ -69,7 +69,7 @@ inline ResponseRequest broad_toothed_cup() {
                   .diaphragm = 3,
                   .tooth_height = 1,
                   .through_thickness = 1};
-  request.flank_heights = 4;
+  request.flank_heights = 3;
   request.face_slices = 2;
   request.estimate = false;
   return request;

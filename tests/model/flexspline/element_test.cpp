@@ -85,10 +85,12 @@ Eigen::VectorXd solve(const Eigen::MatrixXd& k, const Eigen::VectorXd& f,
   for (Eigen::Index c = 0; c < size; ++c) {
     const Eigen::Index from = open[static_cast<std::size_t>(c)];
     force[c] = rest[from];
-    for (Eigen::Index r = 0; r < size; ++r) inner(r, c) = k(open[static_cast<std::size_t>(r)], from);
+    for (Eigen::Index r = 0; r < size; ++r)
+      inner(r, c) = k(open[static_cast<std::size_t>(r)], from);
   }
   const Eigen::VectorXd part = inner.ldlt().solve(force);
-  for (Eigen::Index c = 0; c < size; ++c) u[open[static_cast<std::size_t>(c)]] = part[c];
+  for (Eigen::Index c = 0; c < size; ++c)
+    u[open[static_cast<std::size_t>(c)]] = part[c];
   return u;
 }
 

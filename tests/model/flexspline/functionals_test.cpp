@@ -63,6 +63,7 @@ TEST_F(SeedFunctionals, flank_loads_are_unit_resultants_at_the_mean_radius_of_th
     const double third = 0.107 / 3.0;
     const double mean = height == 0 ? peak + third : height == 4 ? peak - third : peak;
     EXPECT_NEAR(force.moment, mean, 2e-3);
+    EXPECT_NEAR(force.moment, plan.layout.flank_centre_mm[static_cast<std::size_t>(height)], 1e-12);
     const Resultant outwards = resultant(mesh, flank(height, UnitResponses::radial));
     EXPECT_NEAR(std::hypot(outwards.x, outwards.y), 1.0, 1e-4);
     EXPECT_NEAR(outwards.moment, 0.0,

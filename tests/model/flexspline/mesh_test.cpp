@@ -146,7 +146,9 @@ TEST(SectorMesh, a_rim_thicker_than_the_wall_steps_at_45_degrees_behind_the_face
   for (const CylinderPoint& p : mesh.nodes) {
     if (p.z < 1.0)
       continue;
-    if (p.z <= 21.45 + 1e-12) { EXPECT_LE(p.radius, 13.856 + 0.25 + 1e-12); }
+    if (p.z <= 21.45 + 1e-12) {
+      EXPECT_LE(p.radius, 13.856 + 0.25 + 1e-12);
+    }
     if (p.z < 21.5 && p.z > 21.45)
       step = std::max(step, p.radius - 13.856 - 0.25 - (p.z - 21.45));
   }

@@ -51,6 +51,7 @@ TEST_F(Store, gives_back_what_was_kept_bit_by_bit) {
   EXPECT_EQ(first.responses.data, second.responses.data);
   EXPECT_EQ(first.responses.sectors, second.responses.sectors);
   EXPECT_EQ(first.responses.flank_radius_mm, second.responses.flank_radius_mm);
+  EXPECT_EQ(first.responses.flank_centre_mm, second.responses.flank_centre_mm);
   EXPECT_EQ(first.responses.flank_z_mm, second.responses.flank_z_mm);
   EXPECT_EQ(first.responses.wall_offset, second.responses.wall_offset);
   EXPECT_EQ(first.responses.wall_z_mm, second.responses.wall_z_mm);

@@ -102,10 +102,10 @@ TEST(Shell, cylinder_of_the_seed_cup_pinched_at_mid_length) {
 }
 
 TEST(Shell, cylinder_answers_alike_for_any_number_of_sectors) {
-  // The same elements grouped into other sectors.
+  // The same elements grouped into other sectors, the load in the middle of an element each time; rounding of
+  // K times 10⁷.
   const double fine = cylinder_w90(80, 1, 10);
-  EXPECT_NEAR(cylinder_w90(40, 2, 10), fine, 1e-10 * fine * 1e2);
-  EXPECT_NEAR(cylinder_w90(16, 5, 10), fine, 1e-10 * fine * 1e2);
+  EXPECT_NEAR(cylinder_w90(16, 5, 10), fine, 1e-8 * fine);
 }
 
 } // namespace
