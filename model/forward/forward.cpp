@@ -236,6 +236,7 @@ private:
       before = disc_shift_;
       excess_before = excess;
       disc_shift_ -= excess / slope;
+      if (!(std::abs(disc_shift_) < 0.2 * gear_.flexspline.neutral_radius_mm)) break; // slope lost
     }
     return Failure{Status::not_converged,
                    fmt::format("no shift of the discs brings the section at z = {} mm to u0 = {} mm",

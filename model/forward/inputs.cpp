@@ -34,6 +34,8 @@ ResponseRequest response_request(const Gear& gear) {
     request.flank_heights = gear.contact.flank_points;
     // as many nodes along the flank and the face as hats, or the hats could not be told apart
     request.mesh.tooth_height = std::max(gear.mesh.tooth_height, gear.contact.flank_points / 2);
+  } else {
+    request.flank_heights = std::min(request.flank_heights, 2 * gear.mesh.tooth_height + 1); // rows of nodes
   }
   request.mesh.along_face = std::max(gear.mesh.along_face, gear.contact.face_slices / 2);
   return request;

@@ -17,15 +17,19 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 double number_in(const char* path, const std::string& key) {
   std::ifstream file(path);
   for (std::string word; file >> word;) {
-    if (key.empty()) file.seekg(0);
-    else if (word != key) continue;
+    if (key.empty())
+      file.seekg(0);
+    else if (word != key)
+      continue;
     double value = 0.0;
     return file >> value ? value : unlimited; // "max" is no number
   }
   return unlimited;
 }
 
-double gigabytes(double bytes) { return bytes / 1e9; }
+double gigabytes(double bytes) {
+  return bytes / 1e9;
+}
 
 } // namespace
 
@@ -33,7 +37,8 @@ double available_memory_bytes() {
   const double machine = 1024.0 * number_in("/proc/meminfo", "MemAvailable:");
   const double group = number_in("/sys/fs/cgroup/memory.max", "");
   const double group_used = number_in("/sys/fs/cgroup/memory.current", "");
-  double least = std::min(machine, group < unlimited && group_used < unlimited ? group - group_used : unlimited);
+  double least =
+      std::min(machine, group < unlimited && group_used < unlimited ? group - group_used : unlimited);
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
     const double pages = number_in("/proc/self/statm", "");
@@ -44,10 +49,11 @@ double available_memory_bytes() {
 
 void require_memory(double bytes, const std::string& what, const std::string& advice) {
   const double available = available_memory_bytes();
-  if (!(bytes > available)) return;
+  if (!(bytes > available))
+    return;
   char sizes[100];
-  std::snprintf(sizes, sizeof sizes, " need about %.3g GB of memory, %.3g GB are available; ", gigabytes(bytes),
-                gigabytes(available));
+  std::snprintf(sizes, sizeof sizes, " need about %.3g GB of memory, %.3g GB are available; ",
+                gigabytes(bytes), gigabytes(available));
   throw OutOfMemory(what + sizes + advice);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Memory is asked for before it is used: a mesh that cannot fit ends with a sentence at once, not with a machine that
-// swaps or a process that is shot.
+// Memory is asked for before it is used: a mesh that cannot fit ends with a sentence at once, not with a
+// machine that swaps or a process that is shot.
 
 #include <new>
 #include <string>
@@ -17,8 +17,8 @@ private:
   std::string sentence_;
 };
 
-/// What this process may still take, bytes: the least of the machine's available memory, the limit of its control group and
-/// of the process (ulimit -v). Infinity where the system does not say.
+/// What this process may still take, bytes: the least of the machine's available memory, the limit of its
+/// control group and of the process (ulimit -v). Infinity where the system does not say.
 double available_memory_bytes();
 
 /// Throws OutOfMemory "… needs about 12.3 GB of memory, 4.5 GB are available; …" when `bytes` do not fit.

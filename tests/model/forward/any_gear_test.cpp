@@ -22,17 +22,20 @@ ForwardModel& model() {
   return shared;
 }
 
-/// What a number in JSON may not be: null stands for NaN there, and only gaps between flanks that do not overlap have one.
+/// What a number in JSON may not be: null stands for NaN there, and only gaps between flanks that do not
+/// overlap have one.
 void expect_numbers(const nlohmann::ordered_json& json, const std::string& path) {
   if (json.is_null()) {
-    const bool may_be_missing = path.find("/backlash/") != std::string::npos || path.ends_with("/engaged_phi_deg") ||
-                                path.ends_with("/peak_phi_deg");
+    const bool may_be_missing = path.find("/backlash/") != std::string::npos ||
+                                path.ends_with("/engaged_phi_deg") || path.ends_with("/peak_phi_deg");
     EXPECT_TRUE(may_be_missing) << path;
   }
   if (json.is_object())
-    for (const auto& [key, value] : json.items()) expect_numbers(value, path + "/" + key);
+    for (const auto& [key, value] : json.items())
+      expect_numbers(value, path + "/" + key);
   if (json.is_array())
-    for (const auto& value : json) expect_numbers(value, path);
+    for (const auto& value : json)
+      expect_numbers(value, path);
 }
 
 void expect_ends_well(const Gear& gear, const std::string& title) {
@@ -56,7 +59,8 @@ void expect_ends_well(const Gear& gear, const std::string& title) {
     EXPECT_TRUE(result.certificate->holds()) << *result.certificate->find_flaw();
     expect_numbers(result_json(result), "");
     for (const LoadResult& load : result.load)
-      for (const double force : load.force_n) EXPECT_TRUE(force >= 0.0) << force;
+      for (const double force : load.force_n)
+        EXPECT_TRUE(force >= 0.0) << force;
   } else {
     EXPECT_GE(result.message.size(), 20U) << status_name(result.status);
     // a choice that this version lacks is named, all else is said in numbers
@@ -66,7 +70,8 @@ void expect_ends_well(const Gear& gear, const std::string& title) {
     EXPECT_NE(result.status, Status::certificate_failed) << result.message;
   }
   if (std::getenv("STRAINWAVE_SHOW") != nullptr)
-    std::printf("%s: %s %s\n", title.c_str(), std::string(status_name(result.status)).c_str(), result.message.c_str());
+    std::printf("%s: %s %s\n", title.c_str(), std::string(status_name(result.status)).c_str(),
+                result.message.c_str());
 }
 
 std::string words(const FieldValue& value) {
@@ -77,7 +82,8 @@ std::string words(const FieldValue& value) {
     std::string operator()(const std::string& x) const { return x; }
     std::string operator()(const std::vector<double>& list) const {
       std::string text = "[";
-      for (const double x : list) text += shortest(x) + " ";
+      for (const double x : list)
+        text += shortest(x) + " ";
       return text + "]";
     }
   };
@@ -88,7 +94,8 @@ void walk_ends(std::size_t step) {
   std::size_t count = 0;
   for (const Field& field : gear_fields()) {
     for (const FieldValue& value : ends_of(field)) {
-      if (count++ % step != 0) continue;
+      if (count++ % step != 0)
+        continue;
       ASSERT_FALSE(find_complaint(field, value)) << field.path << " = " << words(value);
       Gear gear = quick_gear();
       field.write(gear, value);
@@ -103,10 +110,18 @@ void walk_random(std::uint64_t first, std::uint64_t last) {
   }
 }
 
-TEST(AnyGear, FieldsAtTheEndsOfTheirRangesEndWell) { walk_ends(5); }
-TEST(AnyGear, RandomGearsEndWell) { walk_random(0, 60); }
-TEST(AnyGearNightly, EveryFieldAtBothEndsOfItsRangeEndsWell) { walk_ends(1); }
-TEST(AnyGearNightly, ManyRandomGearsEndWell) { walk_random(60, 800); }
+TEST(AnyGear, FieldsAtTheEndsOfTheirRangesEndWell) {
+  walk_ends(5);
+}
+TEST(AnyGear, RandomGearsEndWell) {
+  walk_random(0, 60);
+}
+TEST(AnyGearNightly, EveryFieldAtBothEndsOfItsRangeEndsWell) {
+  walk_ends(1);
+}
+TEST(AnyGearNightly, ManyRandomGearsEndWell) {
+  walk_random(60, 800);
+}
 
 } // namespace
 } // namespace strainwave::testing
