@@ -28,6 +28,7 @@ ExitCode read_and_run(int argc, char** argv) {
   add_example(app, chosen);
   add_check(app, chosen);
   add_schema(app, chosen);
+  add_study(app, chosen);
   try {
     app.parse(argc, argv);
     if (!chosen)

@@ -23,7 +23,7 @@ public:
       check_load_case(i);
     for (std::size_t i = 0; i < study_.variables.size(); ++i)
       check_variable(i);
-    check_name("objective.output", study_.objective.output, vocabulary_.outputs, "output");
+    check_output("objective.output", study_.objective.output);
     for (std::size_t i = 0; i < study_.constraints.size(); ++i)
       check_constraint(i);
     if (!study_.method.name.empty())
@@ -60,6 +60,14 @@ private:
                                                  : "there is no {} \"{}\"; the nearest legal one is \"{}\""),
                       what, name, nearest.name),
           std::string(nearest.name));
+  }
+
+  void check_output(const std::string& key, const std::string& name) {
+    check_name(key, name, vocabulary_.outputs, "output");
+    if (!given(key) || !vocabulary_.unavailable)
+      return;
+    if (const auto sentence = vocabulary_.unavailable(name, study_))
+      fault(key, fmt::format("{} {}", name, *sentence));
   }
 
   void check_load_case(std::size_t i) {
@@ -145,9 +153,10 @@ private:
   void check_constraint(std::size_t i) {
     const StudyConstraint& constraint = study_.constraints[i];
     const std::string table = fmt::format("constraint[{}]", i);
-    check_name(table + ".output", constraint.output, vocabulary_.outputs, "output");
-    if (!constraint.min && !constraint.max && !constraint.max_ratio_to_baseline)
-      fault(table, "limits nothing; give min, max or max_ratio_to_baseline");
+    check_output(table + ".output", constraint.output);
+    if (!constraint.min && !constraint.max && !constraint.min_ratio_to_baseline &&
+        !constraint.max_ratio_to_baseline)
+      fault(table, "limits nothing; give min, max, min_ratio_to_baseline or max_ratio_to_baseline");
     if (constraint.min && constraint.max && !(*constraint.min <= *constraint.max))
       fault(table + ".max", fmt::format("must not be below min = {}, is {}", shortest(*constraint.min),
                                         shortest(*constraint.max)));

@@ -28,6 +28,7 @@
 #include "model/gear/fields.hpp"
 #include "model/gear_file/file_error.hpp"
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -74,7 +75,8 @@ struct StudyConstraint {
   std::string output;
   std::optional<double> min;
   std::optional<double> max;
-  std::optional<double> max_ratio_to_baseline; ///< times the baseline's value
+  std::optional<double> min_ratio_to_baseline; ///< times the baseline's value
+  std::optional<double> max_ratio_to_baseline; ///< the same
 };
 
 struct StudyMethod {
@@ -116,6 +118,8 @@ struct StudyFile {
 struct StudyVocabulary {
   std::span<const std::string_view> outputs; ///< of a forward result that may be objective or constraint
   std::span<const std::string_view> methods;
+  /// Why an output that exists is not to be had in this study, and the remedy; may be empty.
+  std::function<std::optional<std::string>(std::string_view output, const StudyFile&)> unavailable = {};
 };
 
 /// Throws FileError (of the study file, or of the gear file that it names), std::system_error.

@@ -161,6 +161,8 @@ std::span<const StudyKey<StudyConstraint>> study_keys(const StudyConstraint&) {
       row<&StudyConstraint::output>("output", "", any, "the result that is limited", needed),
       row<&StudyConstraint::min>("min", "", any, "it stays at or above"),
       row<&StudyConstraint::max>("max", "", any, "it stays at or below"),
+      row<&StudyConstraint::min_ratio_to_baseline>("min_ratio_to_baseline", "", above_zero(1e9),
+                                                   "it stays at or above this times the baseline's value"),
       row<&StudyConstraint::max_ratio_to_baseline>("max_ratio_to_baseline", "", above_zero(1e9),
                                                    "it stays at or below this times the baseline's value"),
   };

@@ -2,6 +2,7 @@
 
 #include "model/flexspline/calculix.hpp"
 #include "model/flexspline/responses.hpp"
+#include "model/forward/inputs.hpp"
 
 #include <fmt/format.h>
 

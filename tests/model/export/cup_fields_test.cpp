@@ -13,14 +13,14 @@ namespace strainwave {
 namespace {
 
 /// Displacement of a tooth's contact towards larger φ: linear between the two flank hats around its radius.
-double tooth_displacement(const RingPart& ring, const ResponseFunctionals& plan, const LoadedTooth& tooth,
+double tooth_displacement(const RingPart& ring, const ResponseFunctionals& plan, const LoadedPoint& tooth,
                           const Eigen::Ref<const Eigen::VectorXd>& displacement) {
   const std::vector<double>& radius = plan.layout.flank_radius_mm;
   std::size_t below = 0;
-  while (below + 2 < radius.size() && radius[below + 1] < tooth.contact_radius_mm)
+  while (below + 2 < radius.size() && radius[below + 1] < tooth.flank_radius_mm)
     ++below;
   const double share =
-      std::clamp((tooth.contact_radius_mm - radius[below]) / (radius[below + 1] - radius[below]), 0.0, 1.0);
+      std::clamp((tooth.flank_radius_mm - radius[below]) / (radius[below + 1] - radius[below]), 0.0, 1.0);
   const int sector = (tooth.tooth + ring.sectors()) % ring.sectors();
   const auto at = [&](std::size_t height) {
     const int functional = plan.layout.flank(static_cast<int>(height), 0, UnitResponses::circumferential);
@@ -89,7 +89,7 @@ TEST(CupFields, loaded_teeth_move_by_what_the_rotation_closes) {
   int engaged = 0;
   double torque = 0.0;
   for (const ToothContact& contact : loaded.teeth) {
-    const LoadedTooth& tooth = contact.tooth;
+    const LoadedPoint& tooth = contact.tooth;
     // gap = c + d − R θ, d towards smaller φ, counted from the assembled state
     const double gap = tooth.backlash_mm - tooth_displacement(ring, plan, tooth, change) -
                        tooth.contact_radius_mm * loaded.rotation_rad;

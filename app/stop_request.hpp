@@ -1,0 +1,26 @@
+#pragma once
+// The wish to end early: SIGINT, SIGTERM, SIGUSR1 (what batch systems send before they kill), or a time
+// limit. A command that can be continued asks now and then, brings its files in order and ends with
+// ExitCode::stopped.
+
+#include <chrono>
+#include <optional>
+
+namespace strainwave::app {
+
+/// From here on the signals set a flag instead of ending the program; a second one ends it at once.
+void catch_stop_signals();
+
+class StopRequest {
+public:
+  /// Seconds from now; nothing: no limit.
+  explicit StopRequest(std::optional<double> time_limit_s);
+  bool operator()() const;
+  /// Until the limit.
+  std::optional<double> seconds_left() const;
+
+private:
+  std::optional<std::chrono::steady_clock::time_point> deadline_;
+};
+
+} // namespace strainwave::app

@@ -1,0 +1,69 @@
+#include "optimize/gear_evaluator.hpp"
+
+#include <algorithm>
+
+namespace strainwave {
+
+namespace {
+
+Evaluation failed(std::string status, std::string message) {
+  Evaluation evaluation;
+  evaluation.status = std::move(status);
+  evaluation.message = std::move(message);
+  return evaluation;
+}
+
+} // namespace
+
+GearEvaluator::GearEvaluator(Gear base, Design design, std::vector<Load> loads, ForwardOptions options,
+                             std::function<void(const std::string&)> warn)
+    : base_(std::move(base)), design_(std::move(design)), loads_(std::move(loads)), options_(options),
+      warn_(std::move(warn)) {}
+
+std::unique_ptr<ForwardModel> GearEvaluator::borrow() {
+  const std::lock_guard lock(mutex_);
+  if (idle_.empty())
+    return std::make_unique<ForwardModel>(options_);
+  auto model = std::move(idle_.back());
+  idle_.pop_back();
+  return model;
+}
+
+void GearEvaluator::give_back(std::unique_ptr<ForwardModel> model) {
+  const std::lock_guard lock(mutex_);
+  idle_.push_back(std::move(model));
+}
+
+Evaluation GearEvaluator::evaluate(std::span<const double> x) {
+  try {
+    return evaluate_gear(design_.apply(base_, x));
+  } catch (const FieldError& error) { // a linked number can leave the range of its key
+    return failed("out_of_range", error.what());
+  }
+}
+
+Evaluation GearEvaluator::evaluate_gear(Gear gear) {
+  auto model = borrow();
+  std::vector<ForwardResult> results;
+  for (const Load& load : loads_) {
+    gear.load = load;
+    results.push_back(model->analyze(gear));
+    const ForwardResult& result = results.back();
+    if (warn_)
+      std::for_each(result.warnings.begin(), result.warnings.end(), warn_);
+    if (result.status == Status::ok)
+      continue;
+    give_back(std::move(model));
+    return failed(std::string(status_name(result.status)), result.message);
+  }
+  give_back(std::move(model));
+  Evaluation evaluation;
+  evaluation.ok = true;
+  evaluation.status = "ok";
+  evaluation.values = read_responses(results);
+  for (const ForwardResult& result : results)
+    take_worse(evaluation.certificate, *result.certificate);
+  return evaluation;
+}
+
+} // namespace strainwave

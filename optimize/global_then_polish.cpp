@@ -1,0 +1,108 @@
+#include "optimize/global_then_polish.hpp"
+
+#include "optimize/nlopt_search.hpp"
+#include "optimize/parallel.hpp"
+#include "optimize/start_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace strainwave {
+
+namespace {
+
+/// Evenly spread points, the study's own start first.
+SearchResult spread(const Problem& problem, const SearchSettings& settings, Monitor& monitor) {
+  Recorder recorder(problem, settings.budget, monitor);
+  SearchEnd end = SearchEnd::budget;
+  try {
+    for (const auto& y : start_points(problem.design(), settings.budget, settings.seed))
+      (void)recorder.evaluate(y);
+  } catch (const Recorder::Ended& ended) {
+    end = ended.end;
+  }
+  SearchResult result = recorder.result();
+  result.end = end;
+  return result;
+}
+
+void add(SearchResult& all, SearchResult&& one) {
+  all.asked += one.asked;
+  all.failed += one.failed;
+  if (!one.reason.empty())
+    all.reason = one.reason;
+  if (one.end == SearchEnd::stopped)
+    all.end = one.end;
+  if (one.best && (!all.best || better(*one.best, *all.best)))
+    all.best = one.best;
+  std::move(one.seen.begin(), one.seen.end(), std::back_inserter(all.seen));
+}
+
+SearchResult survey(const Problem& problem, const OptimiseSettings& settings, std::size_t budget,
+                    Monitor& monitor) {
+  constexpr std::size_t parts = 3;
+  std::vector<SearchResult> results(parts);
+  parallel_for(parts, settings.threads, [&](std::size_t part) {
+    SearchSettings share = settings.search;
+    share.budget = std::max<std::size_t>(1, budget / parts);
+    share.method = part == 0 ? "direct_l" : "isres";
+    results[part] =
+        part == 2 ? spread(problem, share, monitor)
+                  : search_nlopt(problem, problem.design().scaled(problem.design().start()), share, monitor);
+  });
+  SearchResult all;
+  all.end = SearchEnd::budget;
+  for (SearchResult& result : results)
+    add(all, std::move(result));
+  return all;
+}
+
+} // namespace
+
+std::vector<Point> best_apart(const Problem& problem, std::vector<Point> points, std::size_t count,
+                              double separation) {
+  const std::vector<double> range = problem.design().scaled_upper();
+  const auto distance = [&](const Point& a, const Point& b) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < range.size(); ++i)
+      largest = std::max(largest, std::abs(a.y[i] - b.y[i]) / range[i]);
+    return largest;
+  };
+  std::stable_sort(points.begin(), points.end(), better);
+  std::vector<Point> chosen;
+  for (const Point& point : points) {
+    if (chosen.size() == count)
+      break;
+    if (std::all_of(chosen.begin(), chosen.end(),
+                    [&](const Point& c) { return distance(point, c) >= separation; }))
+      chosen.push_back(point);
+  }
+  return chosen;
+}
+
+SearchResult global_then_polish(const Problem& problem, const OptimiseSettings& settings, Monitor& monitor) {
+  const std::size_t budget = settings.search.budget;
+  SearchResult found = survey(problem, settings, budget / 2, monitor);
+  if (found.end == SearchEnd::stopped)
+    return found;
+  const std::size_t n = problem.design().size();
+  const double separation =
+      0.3 * std::pow(static_cast<double>(found.seen.size() + 1), -1.0 / static_cast<double>(n));
+  const auto valleys =
+      best_apart(problem, std::move(found.seen), std::max<std::size_t>(1, settings.starts), separation);
+  found.seen.clear();
+  if (valleys.empty())
+    return found;
+  std::vector<SearchResult> polished(valleys.size());
+  const std::size_t share = (budget - found.asked) / valleys.size();
+  parallel_for(valleys.size(), settings.threads, [&](std::size_t k) {
+    polished[k].best = valleys[k];
+    (void)confirm(problem, polished[k], settings.search, share, monitor);
+  });
+  for (SearchResult& result : polished)
+    add(found, std::move(result));
+  return found;
+}
+
+} // namespace strainwave

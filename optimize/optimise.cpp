@@ -1,0 +1,66 @@
+#include "optimize/optimise.hpp"
+
+#include "optimize/global_then_polish.hpp"
+#include "optimize/nlopt_search.hpp"
+#include "optimize/parallel.hpp"
+#include "optimize/start_points.hpp"
+
+#include <algorithm>
+
+namespace strainwave {
+
+namespace {
+
+SearchResult multi_start(const Problem& problem, const OptimiseSettings& settings, Monitor& monitor) {
+  const std::size_t starts = std::max<std::size_t>(1, settings.starts);
+  SearchSettings share = settings.search;
+  share.budget = std::max<std::size_t>(1, settings.search.budget / starts);
+  const auto points = start_points(problem.design(), starts, settings.search.seed);
+  std::vector<SearchResult> results(starts);
+  parallel_for(starts, settings.threads,
+               [&](std::size_t k) { results[k] = search_nlopt(problem, points[k], share, monitor); });
+
+  SearchResult found = results.front();
+  bool stopped = found.end == SearchEnd::stopped;
+  for (std::size_t k = 1; k < starts; ++k) {
+    const SearchResult& result = results[k];
+    const std::size_t asked = found.asked + result.asked;
+    const std::size_t failed = found.failed + result.failed;
+    if (result.best && (!found.best || better(*result.best, *found.best)))
+      found = result;
+    stopped = stopped || result.end == SearchEnd::stopped;
+    found.asked = asked;
+    found.failed = failed;
+  }
+  if (stopped)
+    found.end = SearchEnd::stopped;
+  return found;
+}
+
+} // namespace
+
+std::span<const std::string_view> method_names() {
+  static const auto names = [] {
+    std::vector<std::string_view> all{global_method};
+    const auto nlopt = nlopt_method_names();
+    all.insert(all.end(), nlopt.begin(), nlopt.end());
+    return all;
+  }();
+  return names;
+}
+
+OptimiseResult optimise(const Problem& problem, const OptimiseSettings& settings, Evaluator& fresh,
+                        Monitor& monitor) {
+  const std::size_t budget = settings.search.budget;
+  OptimiseSettings search = settings;
+  search.search.budget = std::max<std::size_t>(1, 3 * budget / 4);
+  SearchResult found = settings.search.method == global_method ? global_then_polish(problem, search, monitor)
+                                                               : multi_start(problem, search, monitor);
+  found.seen.clear();
+  const std::size_t left = budget > found.asked ? budget - found.asked : 0;
+  const bool at_rest = found.end != SearchEnd::stopped && found.end != SearchEnd::all_failed;
+  const bool confirmed = at_rest && confirm(problem, found, settings.search, left, monitor);
+  return {judge(problem, found, confirmed, fresh), found};
+}
+
+} // namespace strainwave

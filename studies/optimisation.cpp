@@ -1,0 +1,162 @@
+#include "studies/optimisation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace strainwave {
+
+namespace {
+
+/// Interfering flanks have no unloaded state to compare with.
+std::optional<Failure> find_fault_of_baseline(const Evaluation& baseline) {
+  if (!baseline.ok)
+    return Failure{Status::contradiction, "the unmodified gear has no result: " + baseline.message};
+  const auto index = find_response(gear_responses(), "min_backlash_um");
+  const double backlash_um = baseline.values[*index];
+  if (backlash_um >= 0.0)
+    return std::nullopt;
+  return Failure{
+      Status::contradiction,
+      fmt::format("the unmodified gear interferes (least backlash {:.3f} µm) and is no baseline; raise "
+                  "circular_spline.profile_shift in [override] until it is free",
+                  backlash_um)};
+}
+
+std::vector<Constraint> constraints_of(const StudyFile& study) {
+  std::vector<Constraint> constraints;
+  for (const StudyConstraint& c : study.constraints)
+    constraints.push_back({.output = c.output,
+                           .min = c.min,
+                           .max = c.max,
+                           .min_ratio_to_baseline = c.min_ratio_to_baseline,
+                           .max_ratio_to_baseline = c.max_ratio_to_baseline});
+  return constraints;
+}
+
+/// In the order in which Problem makes limits of constraints.
+std::vector<LimitReport> limits_of(const StudyFile& study, const Problem& problem) {
+  std::vector<LimitReport> reports;
+  std::size_t k = 0;
+  for (const StudyConstraint& c : study.constraints) {
+    for (const auto& plain : {c.min, c.max})
+      if (plain)
+        reports.push_back({problem.limits()[k++], ""});
+    for (const auto& ratio : {c.min_ratio_to_baseline, c.max_ratio_to_baseline})
+      if (ratio)
+        reports.push_back({problem.limits()[k++], fmt::format("{} × unmodified", shortest(*ratio))});
+  }
+  return reports;
+}
+
+std::vector<InputChange> inputs_of(const Design& design, const Gear& before, const Gear& after) {
+  std::vector<InputChange> inputs;
+  const auto add = [&](const NumberPath& path, std::string link) {
+    inputs.push_back({path.path(), path.field().unit, path.get(before), path.get(after), std::move(link)});
+  };
+  for (const DesignVariable& v : design.variables())
+    add(v.path, "");
+  for (const DesignVariable& v : design.variables())
+    for (const LinkedNumber& link : v.links)
+      add(link.path, fmt::format("{} · {}", shortest(link.ratio), v.path.path()));
+  return inputs;
+}
+
+} // namespace
+
+StudyVocabulary study_vocabulary() {
+  return {.outputs = gear_response_names(),
+          .methods = method_names(),
+          .unavailable = [](std::string_view output, const StudyFile& study) {
+            return find_unavailable_response(output, study.gear, study_loads(study));
+          }};
+}
+
+std::vector<Load> study_loads(const StudyFile& study) {
+  std::vector<Load> loads;
+  for (const LoadCase& c : study.load_cases) {
+    auto load = std::find_if(loads.begin(), loads.end(), [&](const Load& known) {
+      return known.phases == c.phases && known.direction == c.direction;
+    });
+    if (load == loads.end()) {
+      loads.push_back({.torque_nm = {},
+                       .rotation_rad = {},
+                       .rated_torque_nm = study.gear.load.rated_torque_nm,
+                       .direction = c.direction,
+                       .phases = c.phases});
+      load = loads.end() - 1;
+    }
+    if (c.torque_nm)
+      load->torque_nm.push_back(*c.torque_nm);
+    if (c.rotation_rad)
+      load->rotation_rad.push_back(*c.rotation_rad);
+  }
+  return loads;
+}
+
+Design study_design(const StudyFile& study) {
+  std::vector<DesignVariable> variables;
+  for (const StudyVariable& v : study.variables) {
+    const NumberPath path(v.path);
+    DesignVariable variable{.path = path,
+                            .lower = v.lower,
+                            .upper = v.upper,
+                            .start = v.start ? *v.start : std::clamp(path.get(study.gear), v.lower, v.upper),
+                            .scale = v.scale.value_or(0.0),
+                            .links = {}};
+    if (v.link)
+      variable.links.push_back({NumberPath(v.link->path), v.link->ratio});
+    variables.push_back(std::move(variable));
+  }
+  return Design(std::move(variables));
+}
+
+Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Design design = study_design(study);
+  const std::vector<Load> loads = study_loads(study);
+  const ForwardOptions forward{.disk_cache = options.disk_cache, .threads = options.threads};
+  GearEvaluator model(study.gear, design, loads, forward, options.warn);
+  OptimisationReport report;
+  report.study = study;
+  report.method = study.method.name.empty() ? std::string(global_method) : study.method.name;
+  report.baseline = model.evaluate_base();
+  if (auto fault = find_fault_of_baseline(report.baseline))
+    return *fault;
+
+  EvaluationStore store(model);
+  const Objective objective{study.objective.output, study.objective.goal == Goal::maximise};
+  const Problem problem(design, store, objective, constraints_of(study), report.baseline);
+  report.limits = limits_of(study, problem);
+  Monitor monitor(static_cast<std::size_t>(study.method.budget), options.stop, options.progress);
+  GearEvaluator fresh(study.gear, design, loads, forward);
+  const OptimiseResult result = optimise(problem,
+                                         {.search = {.method = report.method,
+                                                     .budget = static_cast<std::size_t>(study.method.budget),
+                                                     .tolerance = study.method.tolerance,
+                                                     .seed = static_cast<std::uint64_t>(study.seed)},
+                                          .starts = static_cast<std::size_t>(study.method.starts),
+                                          .threads = options.threads},
+                                         fresh, monitor);
+  report.verdict = result.judgement.verdict;
+  report.message = result.judgement.message;
+  report.best_gear = study.gear;
+  if (result.judgement.fresh && result.judgement.fresh->ok) {
+    report.best = result.judgement.fresh;
+    report.best_gear = design.apply(study.gear, design.unscaled(result.judgement.best->y));
+    report.best_gear->name = study.gear.name + ", optimised";
+  }
+  report.inputs = inputs_of(design, study.gear, *report.best_gear);
+  if (!report.best)
+    report.best_gear.reset();
+  report.counts = store.counts();
+  report.certificate_worst = store.worst_certificate();
+  report.points = store.points();
+  std::stable_sort(report.points.begin(), report.points.end(),
+                   [](const StoredPoint& a, const StoredPoint& b) { return a.x < b.x; });
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return report;
+}
+
+} // namespace strainwave

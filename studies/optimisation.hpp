@@ -1,0 +1,65 @@
+#pragma once
+// Runs a study of kind "optimize": from the file to a judged optimum beside the unmodified gear.
+
+#include "optimize/evaluation_store.hpp"
+#include "optimize/gear_evaluator.hpp"
+#include "optimize/optimise.hpp"
+#include "studies/study_file.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace strainwave {
+
+struct RunOptions {
+  int threads = 0; ///< 0: all cores
+  bool disk_cache = true;
+  std::function<bool()> stop;
+  std::function<void(const Progress&)> progress;
+  std::function<void(const std::string&)> warn;
+};
+
+/// A number of the gear before and after, by its path.
+struct InputChange {
+  std::string path;
+  std::string_view unit;
+  double baseline = 0.0;
+  double best = 0.0;
+  std::string link; ///< "3 · wave_generator.max_radial_deformation_mm" for a number that moves along
+};
+
+struct LimitReport {
+  Limit limit;
+  std::string origin; ///< "0.95 × unmodified"; empty for a plain number
+};
+
+struct OptimisationReport {
+  StudyFile study;
+  std::string method;
+  Verdict verdict = Verdict::stalled;
+  std::string message;
+  EvaluationCounts counts;
+  double seconds = 0.0;
+  std::vector<InputChange> inputs; ///< variables first, then linked numbers
+  Evaluation baseline;
+  std::optional<Evaluation> best; ///< by a fresh evaluation; nothing if no design could be evaluated
+  std::optional<Gear> best_gear;  ///< with the study's loads left as they are in the gear
+  std::vector<LimitReport> limits;
+  Certificate certificate_worst;
+  std::vector<StoredPoint> points; ///< all evaluations, ascending in x, so that no number of threads shows
+};
+
+/// The names that study files may use here, for load_study().
+StudyVocabulary study_vocabulary();
+
+/// The loads of a study: cases with the same phases and direction share one analysis.
+std::vector<Load> study_loads(const StudyFile& study);
+Design study_design(const StudyFile& study);
+
+/// Throws FieldError where the study asks for what cannot be (a ratio to a baseline of 0). A baseline without
+/// a result, or one that interferes, is no baseline: Outcome's Failure.
+Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOptions& options);
+
+} // namespace strainwave

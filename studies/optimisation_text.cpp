@@ -1,0 +1,144 @@
+#include "studies/optimisation_text.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+
+namespace strainwave {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Out = std::back_insert_iterator<std::string>;
+
+std::string number_text(double value) {
+  return std::isfinite(value) ? fmt::format("{:.5g}", value) : "–";
+}
+
+std::string change_text(double before, double after) {
+  if (!std::isfinite(before) || !std::isfinite(after) || before == 0.0)
+    return "";
+  const double percent = 100.0 * (after - before) / std::abs(before);
+  return std::abs(percent) < 0.05 ? "=" : fmt::format("{:+.1f} %", percent);
+}
+
+void line(Out out, std::string_view name, std::string_view unit, double before, std::optional<double> after,
+          std::string_view remark = "") {
+  fmt::format_to(out, "  {:<46} {:>8} {:>12} {:>12} {:>10}{}{}\n", name, unit, number_text(before),
+                 after ? number_text(*after) : "–", after ? change_text(before, *after) : "",
+                 remark.empty() ? "" : "  ", remark);
+}
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json outputs_json(const Evaluation& evaluation) {
+  Json json = Json::object();
+  const auto responses = gear_responses();
+  for (std::size_t i = 0; i < responses.size(); ++i)
+    json[std::string(responses[i].name)] = number(evaluation.values[i]);
+  return json;
+}
+
+Json certificate_json(const Certificate& c) {
+  return {{"complementarity", c.complementarity}, {"min_gap_um", c.min_gap_um},
+          {"min_force_n", c.min_force_n},         {"reciprocity", c.reciprocity},
+          {"equilibrium", c.equilibrium},         {"discretisation_estimate", c.discretisation_estimate}};
+}
+
+} // namespace
+
+std::string optimisation_table(const OptimisationReport& report, const std::string& folder) {
+  const StudyFile& study = report.study;
+  std::string text;
+  const Out out(text);
+  fmt::format_to(out, "{}: {} {} of \"{}\"{}\n", std::filesystem::path(study.file).stem().string(),
+                 study.objective.goal == Goal::maximise ? "largest" : "least", study.objective.output,
+                 study.gear.name, study.reduced ? " (reduced study)" : "");
+  fmt::format_to(out, "fidelity {}, {} variable{}, method {}\n\n", choice_name(study.gear.contact.fidelity),
+                 study.variables.size(), study.variables.size() == 1 ? "" : "s", report.method);
+
+  const auto headings = [&](const char* what) {
+    fmt::format_to(out, "  {:<46} {:>8} {:>12} {:>12} {:>10}\n", what, "unit", "unmodified", "optimised",
+                   "change");
+  };
+  headings("Inputs");
+  for (const InputChange& input : report.inputs)
+    line(out, input.path, input.unit, input.baseline, report.best ? std::optional(input.best) : std::nullopt,
+         input.link.empty() ? "" : "= " + input.link);
+  fmt::format_to(out, "\n");
+  headings("Outputs");
+  const auto responses = gear_responses();
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    if (!std::isfinite(report.baseline.values[i]))
+      continue;
+    line(out, responses[i].name, responses[i].unit, report.baseline.values[i],
+         report.best ? std::optional(report.best->values[i]) : std::nullopt,
+         responses[i].name == study.objective.output ? "<- objective" : "");
+  }
+  if (!report.limits.empty())
+    fmt::format_to(out, "\n  Limits\n");
+  for (const LimitReport& l : report.limits) {
+    const Response& response = responses[l.limit.response];
+    fmt::format_to(out, "  {} {} {:.6g}{}{}{}", response.name, l.limit.upper ? "≤" : "≥", l.limit.bound,
+                   response.unit.empty() ? "" : " ", response.unit,
+                   l.origin.empty() ? "" : fmt::format(" ({})", l.origin));
+    if (report.best) {
+      const double value = report.best->values[l.limit.response];
+      const double excess = l.limit.scaled_excess(value);
+      fmt::format_to(out, ": {:.6g}, {}", value,
+                     excess > feasibility_tolerance ? "VIOLATED"
+                     : excess > -1e-3               ? "kept, active"
+                                                    : "kept");
+    }
+    fmt::format_to(out, "\n");
+  }
+  fmt::format_to(out, "\nVerdict      {}: {}\n", verdict_name(report.verdict), report.message);
+  fmt::format_to(out, "Evaluations  {} done, {} reused, {} failed; {:.1f} s\n", report.counts.done,
+                 report.counts.reused, report.counts.failed, report.seconds);
+  fmt::format_to(out, "Folder       {}\n", folder);
+  return text;
+}
+
+Json optimisation_json(const OptimisationReport& report, const std::string& folder) {
+  Json json;
+  json["kind"] = "optimize";
+  json["study"] = report.study.file;
+  json["reduced"] = report.study.reduced;
+  json["method"] = report.method;
+  json["verdict"] = verdict_name(report.verdict);
+  json["message"] = report.message;
+  json["evaluations"] = {
+      {"done", report.counts.done}, {"reused", report.counts.reused}, {"failed", report.counts.failed}};
+  json["seconds"] = report.seconds;
+  Json before = Json::object(), after = Json::object();
+  for (const InputChange& input : report.inputs) {
+    before[input.path] = input.baseline;
+    after[input.path] = input.best;
+  }
+  json["best"] = nullptr;
+  if (report.best)
+    json["best"] = {{"inputs", after}, {"outputs", outputs_json(*report.best)}};
+  json["baseline"] = {{"inputs", before}, {"outputs", outputs_json(report.baseline)}};
+  Json limits = Json::array();
+  for (const LimitReport& l : report.limits) {
+    Json limit{{"output", gear_responses()[l.limit.response].name},
+               {l.limit.upper ? "max" : "min", l.limit.bound}};
+    if (report.best) {
+      const double value = report.best->values[l.limit.response];
+      limit["value"] = number(value);
+      limit["kept"] = l.limit.scaled_excess(value) <= feasibility_tolerance;
+    }
+    limits.push_back(std::move(limit));
+  }
+  json["limits"] = std::move(limits);
+  json["certificate_worst"] = certificate_json(report.certificate_worst);
+  json["folder"] = folder;
+  return json;
+}
+
+} // namespace strainwave
