@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "app/result_table.hpp"
+#include "model/export/figures.hpp"
 #include "model/forward/forward.hpp"
 #include "model/forward/result_file.hpp"
 #include "model/forward/result_json.hpp"
@@ -22,8 +23,26 @@ struct AnalyzeOptions {
   bool json = false;
   bool no_cache = false;
   std::string out;
+  std::string plots;
   int threads = 0;
 };
+
+/// Every figure that the result has numbers for; what gnuplot could not draw is a note, not a failure.
+void draw_figures(const ForwardResult& result, Gear gear, Want want, ForwardModel& model, const std::string& folder) {
+  std::vector<Figure> figures = backlash_figures(result);
+  if (want != Want::backlash && result.status == Status::ok) {
+    if (const auto states = model.contact_states(gear)) figures.push_back(assembled_shape_figure(states->states.front()));
+  }
+  for (Figure& figure : load_figures(result)) figures.push_back(std::move(figure));
+  if (const std::vector<double> rotations = sweep_rotations_rad(result); !rotations.empty()) {
+    gear.load.torque_nm.clear();
+    gear.load.rotation_rad = rotations;
+    gear.load.phases = 1;
+    figures.push_back(torque_rotation_figure(result, model.analyze(gear)));
+  }
+  if (figures.empty()) return;
+  if (const Drawn drawn = draw(figures, folder); !drawn.complete) report(drawn.note);
+}
 
 ExitCode analyze(const AnalyzeOptions& options) {
   Gear gear = load_gear(options.file).gear;
@@ -41,6 +60,7 @@ ExitCode analyze(const AnalyzeOptions& options) {
   for (const std::string& warning : result.warnings) report(warning);
   print(options.json ? result_json_text(result) + "\n" : result_table(result));
   if (!options.out.empty()) write_result_file(result, write_gear(gear), options.out);
+  if (!options.plots.empty()) draw_figures(result, gear, want, model, options.plots);
   if (result.status == Status::ok) return ExitCode::done;
   report(result.message);
   return ExitCode::no_result;
@@ -65,6 +85,7 @@ void add_analyze(CLI::App& app, Command& chosen) {
       ->check(CLI::IsMember({"backlash", "compliance", "load"}));
   command->add_flag("--json", options->json, "Print one JSON object instead of the table");
   command->add_option("-o,--out", options->out, "Also write the result to this HDF5 file");
+  command->add_option("--plots", options->plots, "Also draw figures into this folder (SVG by gnuplot, with their data)");
   command->add_option("--threads", options->threads, "Threads for the finite elements (0: all cores)")
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--no-cache", options->no_cache, "Neither read nor write the cache of solved cups");

@@ -25,10 +25,15 @@ ExitCode check(const std::string& file) {
   // Teeth, wave generator and backlash are computed: a gear without a result says so here as it does in
   // `analyze`.
   const ForwardResult result = ForwardModel({.disk_cache = false}).analyze(gear, Want::backlash);
-  if (result.status == Status::ok)
-    return ExitCode::done;
-  report(result.message);
-  return ExitCode::no_result;
+  if (result.status != Status::ok) {
+    report(result.message);
+    return ExitCode::no_result;
+  }
+  if (const auto unavailable = find_unavailable(gear)) {
+    report(unavailable->message);
+    return ExitCode::no_result;
+  }
+  return ExitCode::done;
 }
 
 } // namespace

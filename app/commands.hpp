@@ -17,6 +17,7 @@ void add_example(CLI::App& app, Command& chosen);
 void add_schema(CLI::App& app, Command& chosen);
 void add_analyze(CLI::App& app, Command& chosen);
 void add_check(CLI::App& app, Command& chosen);
+void add_export(CLI::App& app, Command& chosen);
 void add_study(CLI::App& app, Command& chosen);
 
 /// The text of studies/gallery/seed.toml.

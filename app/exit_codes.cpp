@@ -2,6 +2,7 @@
 
 #include "app/output.hpp"
 #include "model/gear/fields.hpp"
+#include "model/gear/memory.hpp"
 #include "model/gear_file/file_error.hpp"
 
 #include <csignal>
@@ -42,6 +43,8 @@ ExitCode run_guarded(const std::function<ExitCode()>& command) noexcept {
     return end(ExitCode::wrong_input, error.what());
   } catch (const FieldError& error) {
     return end(ExitCode::wrong_input, error.what());
+  } catch (const OutOfMemory& error) {
+    return end(ExitCode::environment, error.what());
   } catch (const std::bad_alloc&) {
     return end(ExitCode::environment, "out of memory; close other programs or take a coarser [mesh]");
   } catch (const std::filesystem::filesystem_error& error) {

@@ -24,6 +24,7 @@ ExitCode read_and_run(int argc, char** argv) {
              "permissions; 75 stopped early, run again to resume.");
   Command chosen;
   add_analyze(app, chosen);
+  add_export(app, chosen);
   add_example(app, chosen);
   add_check(app, chosen);
   add_schema(app, chosen);

@@ -71,6 +71,9 @@ Outcome<ContactState> ContactSolver::solve_torque(const ContactProblem& problem,
   mode_ = Mode::torque;
   torque_ = torque;
   solve_constrained(problem, options);
+  // Forces of a torque so small that all of them count as ties: the limit, no torque.
+  if (!std::isfinite(rotation_))
+    return solve_torque(problem, 0.0, {}, options);
   ContactState state;
   emit(problem, state);
   return state;

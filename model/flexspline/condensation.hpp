@@ -28,7 +28,7 @@ namespace strainwave {
 
 class CondensedSector {
 public:
-  /// Throws std::logic_error when the sector is not positive definite, std::bad_alloc without memory.
+  /// Throws NotPositiveStiffness when the sector is not positive definite, std::bad_alloc without memory.
   CondensedSector(const SectorMesh& mesh, const Material& material,
                   const std::vector<const SectorWeights*>& weights);
   ~CondensedSector();

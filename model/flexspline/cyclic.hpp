@@ -28,8 +28,8 @@
 namespace strainwave {
 
 /// [offset k][response a][load b] of all functionals, mm/N; see UnitResponses::data. threads 0: as many as
-/// cores. Throws std::logic_error when the sector is not its own mirror image or a harmonic is not positive
-/// definite.
+/// cores. Throws NotPositiveStiffness (sparse.hpp) when rounding or the material leaves no positive
+/// stiffness, std::logic_error when the sector is not its own mirror image.
 std::vector<double> cyclic_responses(const SectorMesh& mesh, const Material& material,
                                      const std::vector<Functional>& functionals, int threads = 0);
 

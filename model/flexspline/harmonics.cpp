@@ -1,13 +1,12 @@
 #include "model/flexspline/harmonics.hpp"
 
 #include "model/flexspline/blas.hpp"
+#include "model/flexspline/sparse.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-
-#include "model/flexspline/sparse.hpp"
 
 #include <fmt/format.h>
 
@@ -64,7 +63,7 @@ HarmonicSolver::HarmonicSolver(const SectorMesh& mesh, const Material& material,
         odd(p, q) = sign(p) > 0.0 ? back - across : across - back;
       }
     }
-  if (unevenness > 1e-9 * scale)
+  if (unevenness > 1e-7 * scale)
     throw std::logic_error(fmt::format("the sector is not its own mirror image (relative difference {:.1e})",
                                        unevenness / scale));
 }

@@ -22,8 +22,8 @@ struct HarmonicResponse {
 
 class HarmonicSolver {
 public:
-  /// The mesh must outlive this. Throws std::logic_error when the sector is not its own mirror image or not
-  /// positive definite.
+  /// Throws NotPositiveStiffness when the sector is not positive definite, std::logic_error when it is not
+  /// its own mirror image.
   HarmonicSolver(const SectorMesh& mesh, const Material& material,
                  const std::vector<Functional>& functionals);
 

@@ -84,6 +84,12 @@ struct SectorShape {
 Outcome<SectorMesh> sector_mesh(const Flexspline& flexspline, const Mesh& counts,
                                 const SectorShape& shape = {});
 
+/// Elements of a sector, and unknowns on one of its sides, by the counts alone: never less than what sector_mesh() makes.
+struct MeshSize {
+  double elements = 0.0, side_unknowns = 0.0;
+};
+MeshSize mesh_size(const Flexspline& flexspline, const Mesh& counts, bool teeth);
+
 /// About half the counts of every direction, at least what a mesh needs: for estimates of the discretisation
 /// error.
 Mesh coarser(const Mesh& counts, bool teeth);

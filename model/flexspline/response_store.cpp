@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 #include <system_error>
 #include <utility>
 
@@ -35,6 +36,9 @@ private:
   hid_t identifier;
   herr_t (*closer)(hid_t);
 };
+
+/// Debian's HDF5 is not built for several threads: one store works at a time.
+std::mutex hdf5_in_use;
 
 /// HDF5 prints its error stack by default; here a failed call is an ordinary answer.
 class QuietErrors {
@@ -208,6 +212,7 @@ std::optional<UnitResponses> ResponseStore::find(const ResponseRequest& request)
   const std::filesystem::path path = file(request);
   if (folder.empty() || !std::filesystem::exists(path, error))
     return {};
+  const std::lock_guard lock(hdf5_in_use);
   const QuietErrors quiet;
   const auto ignored = [&](const char* reason) -> std::optional<UnitResponses> {
     warn(fmt::format("{} is ignored: {}; the unit responses are computed again", path.string(), reason));
@@ -246,6 +251,7 @@ void ResponseStore::keep(const ResponseRequest& request, const UnitResponses& re
   const std::filesystem::path path = file(request);
   std::filesystem::path beside = path;
   beside += fmt::format(".{}-{}.part", getpid(), serial++);
+  const std::lock_guard lock(hdf5_in_use);
   const QuietErrors quiet;
   std::error_code error;
   std::filesystem::create_directories(folder, error);

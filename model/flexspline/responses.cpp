@@ -1,12 +1,14 @@
 #include "model/flexspline/responses.hpp"
 
 #include "model/flexspline/cyclic.hpp"
+#include "model/gear/memory.hpp"
 #include "model/flexspline/sparse.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -61,8 +63,9 @@ std::optional<Failure> flaw(const ResponseRequest& r) {
   return {};
 }
 
-/// Stiffness of thin walls falls with the cube of their thickness and that of a nearly incompressible material grows
-/// beyond bounds; double precision ends near a spread of 10^15. Names the number that spreads it most.
+/// Stiffness of thin walls falls with the cube of their thickness and that of a nearly incompressible
+/// material grows beyond bounds; double precision ends near a spread of 10^15. Names the number that spreads
+/// it most.
 Failure ill_conditioned(const ResponseRequest& r) {
   const Flexspline& f = r.flexspline;
   struct Suspect {
@@ -79,12 +82,31 @@ Failure ill_conditioned(const ResponseRequest& r) {
       {"flexspline.boss_radius_mm", f.boss_radius_mm, thin(f.boss_radius_mm)},
       {"flexspline.face_width_mm", f.face_width_mm, thin(f.face_width_mm)},
       {"flexspline.cup_length_mm", f.cup_length_mm, std::pow(f.cup_length_mm / radius, 3)}};
-  const Suspect& worst = *std::max_element(std::begin(suspects), std::end(suspects),
-                                           [](const Suspect& a, const Suspect& b) { return a.spread < b.spread; });
-  return {Status::ill_conditioned,
-          fmt::format("the flexspline's finite elements cannot be solved in double precision: the stiffness is not positive "
-                      "definite to rounding; most likely {} {} is too extreme for a cup of neutral_radius_mm {}",
-                      worst.name, worst.value, radius)};
+  const Suspect& worst =
+      *std::max_element(std::begin(suspects), std::end(suspects),
+                        [](const Suspect& a, const Suspect& b) { return a.spread < b.spread; });
+  return {
+      Status::ill_conditioned,
+      fmt::format("the flexspline's finite elements cannot be solved in double precision: the stiffness is "
+                  "not positive "
+                  "definite to rounding; most likely {} {} is too extreme for a cup of neutral_radius_mm {}",
+                  worst.name, worst.value, radius)};
+}
+
+/// Memory that a solve takes at its peak, bytes, by the sizes of its largest arrays (element triplets and the sparse matrix
+/// made of them; the condensed sector and the harmonics; spectrum and responses).
+double memory_bytes(const ResponseRequest& r, int threads) {
+  const MeshSize size = mesh_size(r.flexspline, r.mesh, r.teeth);
+  const double rows = r.wall_z_mm.empty() ? r.mesh.along_face + 1.0 : static_cast<double>(r.wall_z_mm.size());
+  const double flank = r.teeth ? 2.0 * r.flank_heights * r.face_slices : 0.0;
+  const double functionals = flank + 2.0 * rows * static_cast<double>(r.wall_offset.size()) + (r.sections ? 4.0 * rows : 0.0);
+  const double sectors = r.sectors > 0 ? r.sectors : r.flexspline.teeth;
+  const double side = size.side_unknowns, square = functionals * functionals;
+  const double triplets = 60.0 * 61.0 / 2.0 * size.elements * 16.0;
+  const double sector = 16.0 * side * side * 8.0;
+  const double harmonic = (side * side + 6.0 * functionals * side + 8.0 * square) * 8.0;
+  const double responses = 3.0 * square * sectors * 8.0; // spectrum, responses, a copy
+  return 2.5 * triplets + sector + threads * harmonic + responses;
 }
 
 /// Half width of the wall hats in z.
@@ -177,6 +199,12 @@ ResponseFunctionals response_functionals(const ResponseRequest& r, const SectorM
 Outcome<UnitResponses> unit_responses(const ResponseRequest& request, int threads) {
   if (const auto failure = flaw(request))
     return *failure;
+  const int crew = threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  require_memory(memory_bytes(request, crew),
+                 fmt::format("the finite elements of the flexspline ({:.0f} a tooth pitch, {} pitches)",
+                             mesh_size(request.flexspline, request.mesh, request.teeth).elements,
+                             request.sectors > 0 ? request.sectors : request.flexspline.teeth),
+                 "take smaller counts in [mesh]");
   const auto solve = [&](const Mesh& counts) -> Outcome<UnitResponses> {
     const Outcome<SectorMesh> mesh =
         sector_mesh(request.flexspline, counts, {request.teeth, request.sectors});
@@ -188,7 +216,8 @@ Outcome<UnitResponses> unit_responses(const ResponseRequest& request, int thread
     } catch (const NotPositiveStiffness&) {
       return ill_conditioned(request);
     }
-    if (!std::all_of(plan.layout.data.begin(), plan.layout.data.end(), [](double g) { return std::isfinite(g); }))
+    if (!std::all_of(plan.layout.data.begin(), plan.layout.data.end(),
+                     [](double g) { return std::isfinite(g); }))
       return ill_conditioned(request);
     return std::move(plan.layout);
   };

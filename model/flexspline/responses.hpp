@@ -41,7 +41,7 @@ struct ResponseRequest {
   std::vector<double> wall_z_mm;    ///< rows; empty: along_face + 1 equidistant ones over the face
   bool sections = true;             ///< section functionals at all
   std::vector<double> section_z_mm; ///< rows; empty: those of the wall
-  bool estimate = true;             ///< discretisation estimate (a second solve on a coarser mesh)
+  bool estimate = true; ///< discretisation estimate (a second, coarser solve); cups with teeth only
 };
 
 /// Order of convergence that the estimate supposes.

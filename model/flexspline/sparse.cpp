@@ -1,6 +1,7 @@
 #include "model/flexspline/sparse.hpp"
 
 #include "model/flexspline/blas.hpp"
+#include "model/gear/memory.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +32,9 @@ struct SparseCholesky::Content {
   void check(const cholmod_common& state, const char* what) const {
     if (state.status == CHOLMOD_OUT_OF_MEMORY)
       throw std::bad_alloc();
-    if (state.status == CHOLMOD_NOT_POSDEF)
+    if (state.status == CHOLMOD_TOO_LARGE)
+      throw OutOfMemory("the factor of the stiffness matrix has more than 2^31 numbers; take a coarser [mesh]");
+    if (state.status == CHOLMOD_NOT_POSDEF || (factor != nullptr && factor->minor < factor->n))
       throw NotPositiveStiffness(fmt::format("pivot {} of {} of the sector's stiffness is not positive",
                                              factor ? factor->minor : 0, factor ? factor->n : 0));
     if (state.status < CHOLMOD_OK)
@@ -132,8 +135,9 @@ SparseCholesky::SparseCholesky(const SparseAssembly& assembly, int inside)
   }
   if (content->factor != nullptr)
     cholmod_factorize(matrix, content->factor, common);
+  const cholmod_common after = *common; // freeing resets the status
   cholmod_free_sparse(&matrix, common);
-  content->check(*common, "the factorization");
+  content->check(after, "the factorization");
 }
 
 SparseCholesky::~SparseCholesky() = default;

@@ -41,8 +41,8 @@ Eigen::MatrixXd residual(const SparseAssembly& k, const Eigen::MatrixXd& f, cons
 class SparseCholesky {
 public:
   /// `inside`: the unknowns from this one on are kept last in the order; −1: any order that keeps L sparse
-  /// (METIS or AMD). Throws NotPositiveStiffness when the matrix is not positive definite, std::bad_alloc without
-  /// memory.
+  /// (METIS or AMD). Throws NotPositiveStiffness when the matrix is not positive definite, std::bad_alloc
+  /// without memory.
   explicit SparseCholesky(const SparseAssembly& assembly, int inside = -1);
   ~SparseCholesky();
   SparseCholesky(const SparseCholesky&) = delete;

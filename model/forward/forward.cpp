@@ -78,7 +78,7 @@ public:
   }
 
   ForwardResult run() {
-    const auto failure = stages();
+    const auto failure = guarded_stages();
     for (const char* name : {"kinematics", "backlash", "flexspline", "assembly", "compliance", "load"}) {
       const bool there = std::any_of(result_.stages.begin(), result_.stages.end(),
                                      [&](const Stage& stage) { return stage.name == name; });
@@ -91,10 +91,56 @@ public:
     return std::move(result_);
   }
 
+  Outcome<ContactStates> contact_states() {
+    if (auto failure = guarded_stages()) return *failure;
+    const auto model = phase_model(0.0);
+    if (!model) return model.failure();
+    const auto assembled = assembly(0.0);
+    if (!assembled) return assembled.failure();
+    const RingCompliance& ring = ring_->compliance;
+    ContactStates result{.request = response_request(gear_), .states = {}, .warnings = result_.warnings};
+    result.states.push_back(
+        contact_forces("assembled", ring, **assembled, (*assembled)->force_components(), {}, {}));
+    ContactSolver solver;
+    const auto add = [&](const std::string& name, const Outcome<PhaseLoad>& load) -> std::optional<Failure> {
+      if (!load) return load.failure();
+      result.states.push_back(
+          contact_forces(name, ring, **assembled, load->wall_force, (*model)->points(), load->force_n));
+      result.states.back().torque_nm = load->torque_nm;
+      result.states.back().rotation_rad = load->rotation_rad;
+      return std::nullopt;
+    };
+    for (const double torque : gear_.load.torque_nm) {
+      if (auto failure = add(fmt::format("loaded_{:g}Nm", torque), (*model)->at_torque(torque, solver))) return *failure;
+    }
+    for (const double rotation : gear_.load.rotation_rad) {
+      if (auto failure = add(fmt::format("loaded_{:g}rad", rotation), (*model)->at_rotation(rotation, solver))) {
+        return *failure;
+      }
+    }
+    return result;
+  }
+
 private:
+  /// A compliance that is not positive definite is one that rounding has eaten up: data of this gear, not our bug.
+  std::optional<Failure> guarded_stages() {
+    try {
+      return stages();
+    } catch (const NotPositiveDefinite& error) {
+      return Failure{Status::ill_conditioned,
+                     fmt::format("the contact of flexspline and wave generator cannot be solved in double precision: its "
+                                 "compliance has the pivot {:.3g} mm/N (unknown {}); a thickness or contact_width_mm {} is too "
+                                 "small, or youngs_modulus_mpa {} or poisson_ratio {} too extreme, for this cup and mesh",
+                                 error.pivot, error.index, gear_.wave_generator.contact_width_mm,
+                                 gear_.material.youngs_modulus_mpa, gear_.material.poisson_ratio)};
+    }
+  }
+
   std::optional<Failure> stages() {
     if (auto contradiction = find_contradiction(gear_)) return contradiction;
-    if (auto unavailable = find_unavailable(gear_, want_)) return unavailable;
+    if (want_ != Want::backlash) {
+      if (auto unavailable = find_unavailable(gear_)) return unavailable;
+    }
     if (auto failure = kinematics()) return failure;
     if (auto failure = first_backlash()) return failure;
     if (want_ == Want::backlash) return std::nullopt;
@@ -164,7 +210,7 @@ private:
     if (!*responses) return responses->failure();
 
     fold_ = gear_.contact.lobes == 2 && gear_.flexspline.teeth % 2 == 0;
-    const std::vector<double> rows = contact_rows(gear_.flexspline, gear_.wave_generator);
+    const std::vector<double> rows = contact_rows(gear_);
     ring_key_ = key;
     for (const double row : rows) ring_key_.add(row);
     ring_key_.add(fold_ ? 1.0 : 0.0);
@@ -220,6 +266,7 @@ private:
       before = disc_shift_;
       excess_before = excess;
       disc_shift_ -= excess / slope;
+      if (!(std::abs(disc_shift_) < 0.2 * gear_.flexspline.neutral_radius_mm)) break; // slope lost
     }
     return Failure{Status::not_converged,
                    fmt::format("no shift of the discs brings the section at z = {} mm to u0 = {} mm",
@@ -238,8 +285,9 @@ private:
                        .contact_hi_deg = a.contact_hi_rad / degree,
                        .disc_shift_mm = disc_shift_,
                        .newton_steps = a.newton_steps};
+    const int middle_row = static_cast<int>(ring_->compliance.rows_mm().size() / 2);
     for (std::size_t i = 0; i < a.stations.size(); ++i) { // phase 0: a station stands on the major axis
-      if (a.stations[i].row == 1 && std::abs(a.stations[i].phi_rad) < 1e-9) {
+      if (a.stations[i].row == middle_row && std::abs(a.stations[i].phi_rad) < 1e-9) {
         out.radial_deformation_mm = a.displacement(static_cast<Eigen::Index>(i), 0);
       }
     }
@@ -312,26 +360,31 @@ private:
     return std::nullopt;
   }
 
+  Outcome<std::shared_ptr<const PhaseModel>> phase_model(double phase) {
+    if (const auto found = phases_.find(phase); found != phases_.end()) return found->second;
+    auto points = loaded_points(phase);
+    if (!points) return points.failure();
+    auto assembled = assembly(phase);
+    if (!assembled) return assembled.failure();
+    auto model = std::make_shared<const PhaseModel>(gear_.contact, ring_->compliance, *surface_, *assembled,
+                                                    std::move(points).value());
+    if (phases_.size() >= most_phases_kept) phases_.clear(); // some MB each
+    phases_.emplace(phase, model);
+    return model;
+  }
+
   std::optional<Failure> load() {
     StageClock clock(result_, "load");
-    const PhaseSource source = [&](double phase) -> Outcome<std::shared_ptr<const PhaseModel>> {
-      if (const auto found = phases_.find(phase); found != phases_.end()) return found->second;
-      auto points = loaded_points(phase);
-      if (!points) return points.failure();
-      auto assembled = assembly(phase);
-      if (!assembled) return assembled.failure();
-      auto model = std::make_shared<const PhaseModel>(gear_.contact, ring_->compliance, *surface_, *assembled,
-                                                      std::move(points).value());
-      phases_.emplace(phase, model);
-      return model;
-    };
+    const PhaseSource source = [&](double phase) { return phase_model(phase); };
     if (auto failure = solve_load_cases(gear_, source, result_)) return failure;
     clock.done(StageStatus::computed);
-    if (!result_.certificate->holds()) {
-      return Failure{Status::certificate_failed, "the residuals of the contact solution are too large; see the certificate"};
+    if (const auto flaw = result_.certificate->find_flaw()) {
+      return Failure{Status::certificate_failed, "the certificate does not hold: " + *flaw};
     }
     return std::nullopt;
   }
+
+  static constexpr std::size_t most_phases_kept = 64;
 
   ForwardModel::State& state_;
   const Gear& gear_;
@@ -353,9 +406,27 @@ ForwardModel::~ForwardModel() = default;
 
 ForwardResult ForwardModel::analyze(const Gear& gear, Want want) { return Analysis(*state_, gear, want).run(); }
 
-bool Certificate::holds() const {
-  return complementarity <= 1e-9 && min_gap_um >= -1e-6 && min_force_n >= -1e-9 && reciprocity <= 1e-10 &&
-         equilibrium <= 1e-9 && exact_gap_residual_um <= 1e-6;
+Outcome<ContactStates> ForwardModel::contact_states(const Gear& gear) {
+  return Analysis(*state_, gear, Want::compliance).contact_states();
+}
+
+std::optional<std::string> Certificate::find_flaw() const {
+  struct Limit {
+    const char* name;
+    double value, limit;
+  };
+  const Limit limits[] = {{"complementarity", complementarity, 1e-9},
+                          {"min_gap_um", -min_gap_um, 1e-6 + rounding_um},
+                          {"min_force_n", -min_force_n, 1e-9},
+                          {"reciprocity", reciprocity, 1e-10},
+                          {"equilibrium", equilibrium, 1e-9},
+                          {"exact_gap_residual_um", exact_gap_residual_um, 1e-6 + rounding_um}};
+  for (const Limit& one : limits) {
+    if (one.value <= one.limit) continue;
+    if (std::isnan(one.value)) return fmt::format("{} is undefined, at most {:.2g} is allowed", one.name, one.limit);
+    return fmt::format("{} is off by {:.3g}, at most {:.2g} is allowed", one.name, one.value, one.limit);
+  }
+  return std::nullopt;
 }
 
 } // namespace strainwave

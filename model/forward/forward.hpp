@@ -8,10 +8,12 @@
 // One ForwardModel may be used by several threads; analyses share what they have computed. Results depend on the gear
 // alone, never on what was analysed before.
 
+#include "model/forward/contact_forces.hpp"
 #include "model/forward/result.hpp"
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 namespace strainwave {
 
@@ -19,6 +21,9 @@ struct ForwardOptions {
   bool disk_cache = true;  ///< unit responses on disk, in the XDG cache directory
   int threads = 0;         ///< for the finite elements; 0: all cores
 };
+
+/// What this version cannot do for a gear beyond its backlash, as the status not_available.
+std::optional<Failure> find_unavailable(const Gear& gear);
 
 class ForwardModel {
 public:
@@ -28,8 +33,12 @@ public:
   ForwardModel& operator=(const ForwardModel&) = delete;
 
   /// Never throws for a gear that cannot be computed: status and message say why. Throws std::system_error and
-  /// std::bad_alloc for disk and memory.
+  /// std::bad_alloc for disk and memory, FieldError for a faulty wave_generator.table_file.
   ForwardResult analyze(const Gear& gear, Want want = Want::load);
+
+  /// The contact forces of the assembled cup and of every load of the gear, at phase 0 in the drive direction; reuses
+  /// what analyses have computed.
+  Outcome<ContactStates> contact_states(const Gear& gear);
 
   struct State; ///< what analyses share; of forward.cpp only
 

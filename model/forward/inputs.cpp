@@ -1,5 +1,10 @@
 #include "model/forward/inputs.hpp"
 
+#include "model/forward/forward.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -29,14 +34,23 @@ ResponseRequest response_request(const Gear& gear) {
     request.flank_heights = gear.contact.flank_points;
     // as many nodes along the flank and the face as hats, or the hats could not be told apart
     request.mesh.tooth_height = std::max(gear.mesh.tooth_height, gear.contact.flank_points / 2);
+  } else {
+    request.flank_heights = std::min(request.flank_heights, 2 * gear.mesh.tooth_height + 1); // rows of nodes
   }
   request.mesh.along_face = std::max(gear.mesh.along_face, gear.contact.face_slices / 2);
   return request;
 }
 
-/// What this version cannot do, as the status not_available.
-std::optional<Failure> find_unavailable(const Gear& gear, Want want) {
-  if (want == Want::backlash) return std::nullopt;
+namespace {
+
+/// Rows of the mesh on which the wall's responses are known stand this far apart.
+double row_spacing(const Gear& gear) {
+  return gear.flexspline.face_width_mm / response_request(gear).mesh.along_face;
+}
+
+} // namespace
+
+std::optional<Failure> find_unavailable(const Gear& gear) {
   const auto refuse = [](std::string sentence) { return Failure{Status::not_available, std::move(sentence)}; };
   const Contact& c = gear.contact;
   if (c.fidelity == Fidelity::nonlinear || c.assembly == AssemblyModel::nonlinear) {
@@ -50,12 +64,21 @@ std::optional<Failure> find_unavailable(const Gear& gear, Want want) {
   if (gear.wave_generator.shape == WaveGeneratorShape::four_force && c.fidelity != Fidelity::linear) {
     return refuse("a four_force wave generator has no surface to lift off from; use contact.fidelity = \"linear\"");
   }
+  const double overhang = 0.5 * (gear.wave_generator.contact_width_mm - gear.flexspline.face_width_mm);
+  if (overhang > row_spacing(gear)) {
+    return refuse(fmt::format("wave_generator.contact_width_mm {} reaches {} mm past both ends of face_width_mm {}; the wall's "
+                              "compliance is known under the teeth and {} mm (one element) beyond",
+                              gear.wave_generator.contact_width_mm, overhang, gear.flexspline.face_width_mm,
+                              row_spacing(gear)));
+  }
   return std::nullopt;
 }
 
-/// Rows across the discs where the wall may touch: both edges, which carry nearly all of the force, and the middle.
-std::vector<double> contact_rows(const Flexspline& fs, const WaveGenerator& wg) {
+std::vector<double> contact_rows(const Gear& gear) {
+  const Flexspline& fs = gear.flexspline;
+  const WaveGenerator& wg = gear.wave_generator;
   const double middle = fs.cup_length_mm - fs.front_clearance_mm - 0.5 * fs.face_width_mm;
+  if (wg.contact_width_mm < 0.1 * row_spacing(gear)) return {middle};
   return {middle - 0.5 * wg.contact_width_mm, middle, middle + 0.5 * wg.contact_width_mm};
 }
 

@@ -19,11 +19,10 @@ ContentKey curve_key(const WaveGenerator& wave_generator, const Flexspline& flex
 /// Finite elements: cup, material, mesh and where the flank is loaded. Nothing of the wave generator.
 ResponseRequest response_request(const Gear& gear);
 
-/// What this version cannot do, as the status not_available.
-std::optional<Failure> find_unavailable(const Gear& gear, Want want);
-
-/// Rows across the discs where the wall may touch: both edges, which carry nearly all of the force, and the middle.
-std::vector<double> contact_rows(const Flexspline& flexspline, const WaveGenerator& wave_generator);
+/// Rows across the discs where the wall may touch: both edges, which carry nearly all of the force, and the middle. Rows
+/// much closer than those of the mesh say the same thing three times, and their compliance is singular to rounding like
+/// (width / row spacing)⁴: narrow discs have the middle alone.
+std::vector<double> contact_rows(const Gear& gear);
 
 /// The rigid surface that holds the wall; both discs are moved outwards by disc_shift_mm.
 WaveGeneratorSurface surface_of(const Gear& gear, const NeutralCurve& curve, double disc_shift_mm = 0.0);

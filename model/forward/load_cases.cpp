@@ -90,6 +90,13 @@ private:
   Outcome<PhaseLoad> solve(const PhaseModel& model, const Asked& asked) {
     auto load = asked.torque ? model.at_torque(asked.value, solver_) : model.at_rotation(asked.value, solver_);
     if (load) note(*load);
+    if (load && asked.torque) {
+      // relative to it, or to what the largest force of teeth and wall would make of it
+      const double leverage = 1e-3 * gear_.flexspline.tip_radius_mm * load->certificate.force_scale;
+      const double scale = std::max(asked.value, leverage);
+      const double error = std::abs(load->torque_nm - asked.value);
+      if (gear_.contact.method == LoadMethod::event_path) raise(result_.certificate->equilibrium, scale > 0.0 ? error / scale : error);
+    }
     return load;
   }
 
@@ -135,22 +142,37 @@ private:
     StiffnessResult s;
     s.take_up_rad = (*model)->take_up_rad();
     s.wind_up_rad = at_rated->rotation_rad - s.take_up_rad;
+    if (!(s.wind_up_rad > 0.0)) { // interference at rest holds the rated torque, or it is nothing beside rounding
+      result_.message += fmt::format("{}no torsional stiffness: the rated torque {} N·m is reached at {:.6g} rad, take-up is {:.6g} rad",
+                                     result_.message.empty() ? "" : "; ", rated, at_rated->rotation_rad, s.take_up_rad);
+      return std::nullopt;
+    }
     s.secant_nm_per_rad = rated / s.wind_up_rad;
     s.lost_motion_arcmin = 2.0 * at_small->rotation_rad / (60.0 * arcsec);
     result_.stiffness = s;
     return std::nullopt;
   }
 
+  /// NaN counts as the worst of all; std::max would lose it.
+  static void raise(double& worst, double value) {
+    if (!(value <= worst) && !std::isnan(worst)) worst = value;
+  }
+
   void note(const PhaseLoad& load) {
     Certificate& c = *result_.certificate;
-    c.complementarity = std::max(c.complementarity, load.certificate.complementarity);
-    c.min_gap_um = std::min(c.min_gap_um, 1e3 * load.certificate.min_gap);
-    c.min_force_n = std::min(c.min_force_n, load.certificate.min_force);
-    c.equilibrium = std::max(c.equilibrium, load.certificate.torque_error);
-    if (load.certificate.gap_scale > 0.0) {
-      c.equilibrium = std::max(c.equilibrium, load.recomputed_gap_um * 1e-3 / load.certificate.gap_scale);
-    }
-    c.exact_gap_residual_um = std::max(c.exact_gap_residual_um, load.exact_gap_residual_um);
+    const auto lower = [](double& worst, double value) {
+      if (!(value >= worst) && !std::isnan(worst)) worst = value;
+    };
+    const ContactCertificate& solved = load.certificate;
+    // Gaps are differences of displacements: measured by the larger of both.
+    const double scale = std::max(solved.gap_scale, load.largest_displacement_mm);
+    raise(c.complementarity, scale > 0.0 ? solved.complementarity * (solved.gap_scale / scale) : solved.complementarity);
+    lower(c.min_gap_um, 1e3 * solved.min_gap);
+    lower(c.min_force_n, solved.min_force);
+    raise(c.equilibrium, solved.torque_error);
+    if (scale > 0.0) raise(c.equilibrium, load.recomputed_gap_um * 1e-3 / scale);
+    raise(c.exact_gap_residual_um, load.exact_gap_residual_um);
+    raise(c.rounding_um, load.rounding_um);
   }
 
   const Gear& gear_;

@@ -14,17 +14,28 @@ namespace {
 
 double take_up(const LoadedPoint& point) { return point.backlash_mm / point.contact_radius_mm; }
 
+/// Steps of the march: the usual ones, wider for rotations that would take more than some thousand of them.
+MarchOptions steps_over(double range) {
+  constexpr double most_steps = 4000.0;
+  MarchOptions options;
+  const double wider = std::max(1.0, range / (most_steps * options.step));
+  options.step *= wider;
+  options.least_step *= wider;
+  return options;
+}
+
 /// The source text's way to a torque: march the rotation a little past it, read the rotation off the polygon of accepted
-/// points, march there. `beyond` only bounds the march.
-ContactState march_to_torque(const ContactProblem& problem, double torque, double beyond, ContactSolver& solver) {
-  const MarchOptions options;
-  const March way = march(problem, 0.0, std::max(0.0, beyond) + 2.0 * options.step, options, solver);
+/// points, march there. `direct`, the direct solution, only bounds the march; below 0 the flanks interfere at rest.
+ContactState march_to_torque(const ContactProblem& problem, double torque, double direct, ContactSolver& solver) {
+  const MarchOptions options = steps_over(std::abs(direct));
+  const double start = direct < 0.0 ? direct - 2.0 * options.step : 0.0;
+  const March way = march(problem, start, std::max(0.0, direct) + 2.0 * options.step, options, solver);
   std::size_t i = 1;
   while (i + 1 < way.torque.size() && way.torque[i] < torque) ++i;
   const double rise = way.torque[i] - way.torque[i - 1];
   const double share = rise > 0.0 ? (torque - way.torque[i - 1]) / rise : 1.0;
   const double rotation = way.rotation[i - 1] + share * (way.rotation[i] - way.rotation[i - 1]);
-  return march(problem, 0.0, rotation, options, solver).last;
+  return march(problem, start, std::max(start, rotation), options, solver).last;
 }
 
 } // namespace
@@ -135,7 +146,7 @@ Outcome<PhaseModel::Solved> PhaseModel::solve_selection(const Selection& selecti
       solved.state = march_to_torque(problem, value, solved.state.rotation, solver);
     }
   } else if (contact_.method == LoadMethod::stepping && value > 0.0) {
-    solved.state = march(problem, 0.0, value, MarchOptions{}, solver).last;
+    solved.state = march(problem, 0.0, value, steps_over(value), solver).last;
   } else {
     solved.state = solver.solve_at(problem, value, warm);
   }
@@ -159,6 +170,13 @@ Outcome<PhaseModel::Solved> PhaseModel::solve_selection(const Selection& selecti
     solved.state = exact->state;
   }
   if (solved.wall_force.size() > 0) load.disc_force_n = wall_resultant(assembled_->stations, solved.wall_force)(0);
+  load.wall_force = contact_.fidelity == Fidelity::linear
+                        ? Eigen::MatrixX2d(assembled_->force_components() +
+                                           frozen_reaction(ring_, *assembled_, selection.load.points,
+                                                           solved.state.force.head(selection.load.point_count)))
+                        : solved.wall_force;
+  load.largest_displacement_mm = problem.m.diagonal().maxCoeff() * solved.state.force.sum();
+  load.rounding_um = 1e3 * gap_rounding_mm(problem.size(), surface_.inner_radius_mm(), load.largest_displacement_mm);
   load.rotation_rad = solved.state.rotation;
   load.torque_nm = 1e-3 * selection.load.lobes * solved.state.torque;
   load.tangent_nm_per_rad = 1e-3 * selection.load.lobes * solved.state.stiffness;

@@ -24,10 +24,13 @@ struct PhaseLoad {
   std::vector<double> force_n;
   std::vector<double> gap_um;  ///< loaded, along the arc; 0 where closed
   double disc_force_n = 0.0;   ///< 0 for fidelity linear
+  Eigen::MatrixX2d wall_force; ///< (radial, circumferential) at the assembly's stations, N
   double gap_correction_rotation_rad = 0.0;
   double gap_correction_force_n = 0.0;
   double exact_gap_residual_um = 0.0;
   double recomputed_gap_um = 0.0; ///< gaps from the forces through the unit responses, against the solver's; largest
+  double largest_displacement_mm = 0.0; ///< bound of any displacement by a part of the forces: largest unit response · Σ force
+  double rounding_um = 0.0;             ///< of a gap (gap_rounding_mm)
   ContactCertificate certificate;
   bool contact = false;
   int rounds = 1; ///< selections tried

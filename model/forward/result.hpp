@@ -105,7 +105,10 @@ struct Certificate {
   double equilibrium = 0.0;            ///< displacements recomputed from the forces against the solver's gaps, relative
   double discretisation_estimate = 0.0; ///< relative, of the largest tooth compliance
   double exact_gap_residual_um = 0.0;  ///< disc gap after the Newton correction
-  bool holds() const;
+  double rounding_um = 0.0;            ///< what double precision can tell apart in a gap of this gear under its loads
+  bool holds() const { return !find_flaw(); }
+  /// "equilibrium is off by …, at most … is allowed".
+  std::optional<std::string> find_flaw() const;
 };
 
 enum class StageStatus { computed, reused, skipped };

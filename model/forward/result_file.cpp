@@ -131,6 +131,7 @@ void put_all(const ForwardResult& result, hid_t file) {
     group.put("reciprocity", "1", c->reciprocity);
     group.put("equilibrium", "1", c->equilibrium);
     group.put("exact_gap_residual", "um", c->exact_gap_residual_um);
+    group.put("rounding", "um", c->rounding_um);
     group.put("discretisation_estimate", "1", c->discretisation_estimate);
   }
 }
@@ -139,13 +140,15 @@ void put_all(const ForwardResult& result, hid_t file) {
 
 void write_result_file(const ForwardResult& result, const std::string& config, const std::filesystem::path& path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // errors are reported by exception, not printed
+  const auto refused = [&path](const std::error_code& cause) {
+    return std::system_error(cause, fmt::format("cannot write {}", path.string()));
+  };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw refused(std::make_error_code(std::errc::is_a_directory));
   const std::filesystem::path beside = path.string() + ".part";
   errno = 0;
   const hid_t file = H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  if (file < 0) {
-    throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(),
-                            fmt::format("cannot write {}", path.string()));
-  }
+  if (file < 0) throw refused(std::error_code(errno != 0 ? errno : EIO, std::generic_category()));
   try {
     text(file, "config", config);
     text(file, "version", STRAINWAVE_VERSION);
@@ -154,14 +157,19 @@ void write_result_file(const ForwardResult& result, const std::string& config, c
     text(file, "fidelity", choice_name(result.fidelity));
     put_all(result, file);
     Group::check(H5Fflush(file, H5F_SCOPE_GLOBAL));
-  } catch (...) {
+  } catch (const std::system_error&) {
+    const int cause = errno;
     H5Fclose(file);
-    std::error_code ignored;
     std::filesystem::remove(beside, ignored);
-    throw;
+    throw refused(std::error_code(cause != 0 ? cause : EIO, std::generic_category()));
   }
-  Group::check(H5Fclose(file));
-  std::filesystem::rename(beside, path);
+  std::error_code error;
+  errno = 0;
+  if (H5Fclose(file) < 0) error = std::error_code(errno != 0 ? errno : EIO, std::generic_category()); // a full disk shows here
+  else std::filesystem::rename(beside, path, error);
+  if (!error) return;
+  std::filesystem::remove(beside, ignored);
+  throw refused(error);
 }
 
 } // namespace strainwave

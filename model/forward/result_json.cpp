@@ -114,6 +114,7 @@ Json result_json(const ForwardResult& result) {
                            {"reciprocity", c->reciprocity},
                            {"equilibrium", c->equilibrium},
                            {"exact_gap_residual_um", c->exact_gap_residual_um},
+                           {"rounding_um", c->rounding_um},
                            {"discretisation_estimate", number(c->discretisation_estimate)}};
   }
   json["stages"] = Json::array();

@@ -1,16 +1,16 @@
 #pragma once
-// Closed forms of the radial displacement u(phi) for 0 <= phi <= pi/2 (even, period pi), each with u' and
-// u''.
+// Closed forms of the radial displacement u(phi), 0 <= phi <= pi/2 (even, period pi), each with u' and u''.
 //
-// Two discs (ring under two symmetric pairs of contact arcs; physics: a thin inextensible ring, small
-// displacements), wrap angle gamma, eps = pi/2 - gamma, x = pi/2 - phi:
-//     A1 = eps - sin eps cos eps        B1 = (4/pi)(sin eps - eps cos eps)        k = u0/(A1 - B1)
+// Two discs: thin inextensible ring on two symmetric contact arcs, small displacements. Wrap angle gamma,
+// eps = pi/2 - gamma, x = pi/2 - phi:
+//     A1 = eps - sin eps cos eps      B1 = (4/pi)(sin eps - eps cos eps)      k = u0/(A1 - B1)
 //     on the disc:  u = k (A1 cos phi - B1)
 //     free:         u = k [(1 - cos eps)^2 + (x sin x - 2 (1 - cos x)) + sin^2 eps (1 - cos x) - B1]
 // The free part equals (1 + sin^2 gamma) sin phi + (pi/2 - phi) cos phi - 2 sin gamma - B1, written so that
-// nothing of order one cancels when gamma nears pi/2 (A1 - B1 ~ eps^3). Four radial forces at +-beta and
-// opposite: ring under concentrated loads (Timoshenko, Strength of Materials II, art. 16). Cosine: u0 cos 2
-// phi. Ellipse: semi-axes r_m + u0 and b, radius at the polar angle phi.
+// nothing of order one cancels when gamma nears pi/2 (A1 - B1 ~ eps^3).
+// Four forces at +-beta and opposite: ring under concentrated loads.
+// Cosine: u0 cos 2 phi.
+// Ellipse: semi-axes r_m + u0 and b; u = radius at the polar angle phi, less r_m.
 
 #include "model/kinematics/derivative.hpp"
 

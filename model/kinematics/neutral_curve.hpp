@@ -1,18 +1,19 @@
 #pragma once
 // The neutral line of the flexspline as the wave generator holds it, and where a tooth goes on it.
 //
-// Polar angles are counted counter-clockwise from the major axis of the wave generator. The curve is even and
-// repeats after pi. The material point of angle phi (undeformed) moves to
-//     radius rho, polar angle phi1, and its tooth stands on the outward normal, turned from the radius by
-//     theta_n.
-// First-order shapes (two_disc, four_force, ellipse, cosine, table): rho = r_m + u(phi1), arc length kept
-// exactly from the nearer end of the major axis, r_m phi = int_0^phi1 sqrt(rho^2 + rho'^2), theta_n =
-// -arctan(rho'/rho). The curve is never rescaled: at phi = +-90 degrees, where such a curve does not close,
-// phi1 differs from phi. two_disc_exact: the inextensible elastica on two rigid discs (elastica.hpp). Seed
-// gear, phi = 30 degrees: phi1 - phi = -6.412312252e-3, rho - r_m = 0.118293683 mm, theta_n = 2.180548513e-2.
+// Polar angles count counter-clockwise from the major axis of the wave generator; the curve is even and
+// repeats after pi. The material point of angle phi (undeformed) moves to radius rho and polar angle phi1,
+// and its tooth stands on the outward normal, turned from the radius by theta_n.
 //
-// Lengths in mm, angles in rad. Values and derivatives are exact to rounding; a pose costs 0.1 to 0.3
-// microseconds.
+// two_disc_exact: the inextensible elastica on two rigid discs (elastica.cpp).
+// First order (two_disc, four_force, ellipse, cosine, table), with rho = r_m + u(phi1):
+//     r_m phi = int_0^phi1 sqrt(rho^2 + rho'^2)        theta_n = -arctan(rho'/rho)
+// counted from the nearer end of the major axis and never rescaled: at phi = +-90 degrees, where such a curve
+// does not close, phi1 differs from phi.
+//
+// Seed gear, exact discs, phi = 30 degrees:
+//     phi1 - phi = -6.412312252e-3    rho - r_m = 0.118293683 mm    theta_n = 2.180548513e-2
+// Lengths in mm, angles in rad. Exact to rounding; a pose costs 0.04 (exact) to 0.2 microseconds.
 
 #include "model/gear/gear.hpp"
 #include "model/gear/outcome.hpp"

@@ -1,12 +1,12 @@
 #pragma once
 // The two-disc elastica as a shooting problem, solved with SUNDIALS: CVODES (Adams) integrates the free arc,
-// KINSOL (Newton) finds the lift-off arc a, the curvature slope h = N/EI and, when the wrap angle is given
-// instead, the eccentricity.
+// KINSOL (Newton) finds the lift-off arc a, the curvature's slope h = N/EI and, when the wrap angle is given
+// instead, the eccentricity e. R = r_m + u0 - e.
 //
-//     x' = cos psi, y' = sin psi, psi' = kappa = 1/R + h (y - y_L)          (kappa' = h sin psi, integrated
-//     once) at lift-off   x = e + R cos a,  y = y_L = R sin a,  psi = pi/2 + a,  arc length R a at the minor
-//     axis, arc length pi r_m/2:   x = 0, psi = pi
-// R = r_m + u0 - e. Integration starts at the lift-off because the slope of the curvature jumps there.
+//     free arc      x' = cos psi,  y' = sin psi,  psi' = 1/R + h (y - y_L)     (kappa' = h sin psi,
+//     integrated) at lift-off   x = e + R cos a,  y = y_L = R sin a,  psi = pi/2 + a;  arc length R a minor
+//     axis    x = 0,  psi = pi;  arc length pi r_m/2
+// Integration starts at the lift-off because the slope of the curvature jumps there.
 
 #include "model/gear/outcome.hpp"
 

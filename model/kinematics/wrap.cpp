@@ -3,6 +3,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace strainwave {
@@ -23,10 +24,10 @@ Failure singular(const std::string& what) {
 Outcome<double> wrap_from_ratio(double eccentricity, double u0) {
   const double ratio = eccentricity / u0;
   if (!(ratio > ratio_at_right_angle && ratio < ratio_at_zero))
-    return Failure{Status::no_wrap, fmt::format("eccentricity_mm {} / max_radial_deformation_mm {} = {:.4f}: "
+    return Failure{Status::no_wrap, fmt::format("eccentricity_mm {} / max_radial_deformation_mm {} = {:.5g}: "
                                                 "the discs wrap the flexspline only for "
-                                                "{:.3f} < e/u0 < {:.3f}, here {:.4f} mm < e < {:.4f} mm",
-                                                eccentricity, u0, ratio, ratio_at_right_angle, ratio_at_zero,
+                                                "{:.3f} < e/u0 < {:.3f}, here {:.4g} mm < e < {:.4g} mm",
+                                                eccentricity, u0, std::min(ratio, 1e300), ratio_at_right_angle, ratio_at_zero,
                                                 ratio_at_right_angle * u0, ratio_at_zero * u0)};
   const auto excess = [&](double gamma) { return eccentricity_ratio(gamma) - ratio; };
   const double at_zero = excess(0.0), at_end = excess(largest_wrap_rad);
@@ -76,7 +77,9 @@ Outcome<Wrap> first_order_wrap(const WaveGenerator& generator) {
     return Wrap{gamma, u0 * eccentricity_ratio(gamma)};
   }
   return Failure{Status::contradiction,
-                 "two discs need either wave_generator.eccentricity_mm or wave_generator.wrap_angle_deg"};
+                 fmt::format("two discs need either wave_generator.eccentricity_mm, between {:.4g} and {:.4g} mm for "
+                             "max_radial_deformation_mm {}, or wave_generator.wrap_angle_deg",
+                             ratio_at_right_angle * u0, ratio_at_zero * u0, u0)};
 }
 
 } // namespace strainwave

@@ -1,8 +1,8 @@
 #pragma once
-// Eccentricity, radial deformation and wrap angle of two discs, first order: e/u0 = A1/(A1 - B1), a falling
-// function of eps = pi/2 - gamma's complement: 5.2787 at gamma = 0, 2.7519 = 1/(1 - 2/pi) at gamma = pi/2.
-// Only between the two does a wrap exist. At gamma -> pi/2 the free arc shrinks to a kink and the formula has
-// its pole; angles within half a degree of it are refused.
+// Eccentricity, radial deformation and wrap angle of two discs, first order: e/u0 = A1/(A1 - B1) falls as the
+// wrap angle gamma grows, from 5.279 at 0 to 2.752 = 1/(1 - 2/pi) at 90 degrees. Only between the two does a
+// wrap exist. Towards 90 degrees the free arc shrinks to a kink and the shape's formula has its pole; angles
+// within half a degree of it are refused.
 
 #include "model/gear/gear.hpp"
 #include "model/gear/outcome.hpp"

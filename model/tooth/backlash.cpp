@@ -109,6 +109,11 @@ Outcome<Backlash> backlash(const Gear& gear, const NeutralCurve& curve, double p
     result.coast.push_back(pair->coast(pose, space));
     any = any || result.drive.back().overlap || result.coast.back().overlap;
   }
+  if (teeth.empty() && !gear.contact.window_deg.empty())
+    return Failure{Status::no_overlap,
+                   fmt::format("no tooth stands between the angles of contact.window_deg, {} and {} degrees; the pitch is "
+                               "{:.4g} degrees",
+                               gear.contact.window_deg.front(), gear.contact.window_deg.back(), 360.0 / gear.flexspline.teeth)};
   if (!any)
     return Failure{
         Status::no_overlap,

@@ -84,6 +84,14 @@ std::optional<Failure> find_flank_contradiction(const Gear& gear) {
         "circular_spline.tip_radius_mm {} must be less than circular_spline.root_radius_mm {} (internal "
         "teeth)",
         c.tip_radius_mm, c.root_radius_mm);
+  // A tip circle ten times off the pitch circle is a slip of a unit, and the involute overflows far out there.
+  const double pitch = 0.5 * f.module_mm * f.teeth;
+  if (!(f.tip_radius_mm < 10.0 * pitch))
+    return contradiction("flexspline.tip_radius_mm {} does not fit the pitch radius module_mm {} * teeth {} / 2 = {:.5g} mm",
+                         f.tip_radius_mm, f.module_mm, f.teeth, pitch);
+  if (!(c.root_radius_mm < 10.0 * pitch))
+    return contradiction("circular_spline.root_radius_mm {} does not fit the pitch radius module_mm {} * teeth {} / 2 = {:.5g} mm",
+                         c.root_radius_mm, f.module_mm, f.teeth, pitch);
   const InvoluteTooth tooth = flexspline_tooth(gear), space = circular_spline_space(gear);
   if (!(f.tip_radius_mm > tooth.base_radius))
     return Failure{
@@ -102,21 +110,21 @@ std::optional<Failure> find_flank_contradiction(const Gear& gear) {
   const ToothThickness thickness = tooth_thickness(gear);
   if (!(thickness.flexspline_tip_mm > 0.0))
     return contradiction(
-        "the flexspline tooth ends in a point below its tip circle: tip thickness {:.4f} mm at "
+        "the flexspline tooth ends in a point below its tip circle: tip thickness {:.4g} mm at "
         "tip_radius_mm {} with profile_shift {}",
         thickness.flexspline_tip_mm, f.tip_radius_mm, f.profile_shift);
   if (!(thickness.circular_spline_tip_mm > 0.0))
     return contradiction(
-        "the circular-spline tooth ends in a point outside its tip circle: tip thickness {:.4f} mm at "
+        "the circular-spline tooth ends in a point outside its tip circle: tip thickness {:.4g} mm at "
         "tip_radius_mm {} with profile_shift {}",
         thickness.circular_spline_tip_mm, c.tip_radius_mm, c.profile_shift);
   if (const double gap = pi / f.teeth - tooth.half_angle(f.root_radius_mm); !(gap > 0.0))
     return contradiction(
-        "neighbouring flexspline teeth overlap at root_radius_mm {}: the space there is {:.4f} mm wide",
+        "neighbouring flexspline teeth overlap at root_radius_mm {}: the space there is {:.4g} mm wide",
         f.root_radius_mm, 2.0 * gap * f.root_radius_mm);
   if (const double width = space.half_angle(c.root_radius_mm); !(width > 0.0))
     return contradiction(
-        "the circular-spline space closes before its root_radius_mm {}: it is {:.4f} mm wide there",
+        "the circular-spline space closes before its root_radius_mm {}: it is {:.4g} mm wide there",
         c.root_radius_mm, 2.0 * width * c.root_radius_mm);
   const auto& [on_flexspline, on_circular_spline] = gear.flank_modification;
   if (auto failure = find_added_material(on_flexspline, Member::flexspline, f.face_width_mm))
@@ -159,6 +167,10 @@ std::optional<Failure> find_in_cup(const Gear& gear) {
 
 std::optional<Failure> find_in_wave_generator(const Gear& gear) {
   const Flexspline& f = gear.flexspline;
+  const double front = f.cup_length_mm - f.front_clearance_mm;
+  if (const auto& z = gear.contact.reference_section_mm; z && !(*z >= front - f.face_width_mm && *z <= front))
+    return contradiction("contact.reference_section_mm {} must lie on the toothed face, from {} to {} mm", *z,
+                         front - f.face_width_mm, front);
   const double width = gear.wave_generator.contact_width_mm;
   if (!(width > 0.0))
     return contradiction("wave_generator.contact_width_mm {} is not a positive length", width);

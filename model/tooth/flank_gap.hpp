@@ -1,19 +1,18 @@
 #pragma once
 // The gap between one flexspline flank and its circular-spline space, for any scalar. Internal to this room.
 //
-// Involute by its roll angle t (t = tan alpha at the point; physics' s = t - tan alpha0), unmodified, in the
-// frame of the tooth:
-//     P(t) = r_b (1 + i t) exp(i (sigma - t)),   sigma = theta_h + inv alpha0,   tangent direction exp(i
-//     (sigma - t)).
-// The flank's normal is i exp(i (sigma - t)), so removal by m along it only changes the length along the
-// normal:
-//     flexspline         Q = exp(i (sigma - t)) (r_b + i (r_b t - m)) + (a + i b)
-//     circular spline    P = exp(i (sigma - t)) (r_b + i (r_b t + m)),   |P|^2 = r_b^2 + (r_b t + m)^2
+// Involute by its roll angle t (tan of the pressure angle at the point; the source text's s is t - tan
+// alpha0), in the frame of the tooth, w = sigma - t, sigma = theta_h + inv alpha0:
+//     P(t) = r_b (1 + i t) exp(i w),      tangent exp(i w),      normal i exp(i w)
+// Removal by m along the normal changes only the length along it:
+//     flexspline         Q = exp(i w) (r_b + i (r_b t - m)) + (a + i b)
+//     circular spline    P = exp(i w) (r_b + i (r_b t + m)),      |P|^2 = r_b^2 + (r_b t + m)^2
 // (a, b) = (rho cos theta_n - r_m, -rho sin theta_n) moves the tooth with its pose, seen in a frame that
-// turns with the tooth; tau = space angle - phi1 - theta_n is the direction of the space in that frame. With
-// the radius rho_p = |Q(t)| and the circular-spline flank point of equal radius (roll angle t2):
-//     gap(t) = rho_p [tau + sigma2 - t2 + arctan(l2/r_b2) - arg Q(t)],     l2 = sqrt(rho_p^2 - r_b2^2) = r_b2
-//     t2 + m2(t2).
+// turns with the tooth; tau = space angle - phi1 - theta_n is the direction of the space in that frame. At
+// the radius rho_p = |Q(t)| the circular-spline flank has the roll angle t2 and the length l2 along its
+// normal:
+//     l2 = sqrt(rho_p^2 - r_b2^2) = r_b2 t2 + m2(t2)
+//     gap(t) = rho_p [tau + sigma2 - t2 + arctan(l2/r_b2) - arg Q(t)]
 
 #include "model/gear/gear.hpp"
 #include "model/kinematics/derivative.hpp"

@@ -2,18 +2,18 @@
 // Material removed from a flank, along its normal.
 //
 // Flank coordinate h: flexspline 0 at its root circle, 1 at its tip; circular spline 0 at its tip circle, 1
-// at its root; linear in radius. Face coordinate zeta: -1 at the diaphragm's end of the face, 0 mid face, +1
-// at the open end. With q = h on the flexspline and 1 - h on the circular spline (so q runs from the member's
-// root to its tip), the removal is the sum of
-//     tip relief     A ((q - start)/(1 - start))^power   for q > start
-//     root relief    B (start - q)/start                  for q < start
-//     crowning       C (2 h - 1)^2
-//     slope S        S h when S > 0, |S| (1 - h) when S < 0
-//     spline         natural cubic spline through equidistant values from h = 0 to 1 (one value: constant,
-//     two: straight) lead crowning  L zeta^2;  lead taper K: K (1 + zeta)/2 when K > 0, |K| (1 - zeta)/2 when
-//     K < 0 end relief     E (1 - d/length)^2 for a distance d < length from either end of the face.
-// The total must not be negative. Derivatives with respect to slope and taper are one-sided at zero (towards
-// positive values).
+// at its root; linear in radius. q runs from a member's root to its tip: h, or 1 - h on the circular spline.
+// Face coordinate zeta: -1 at the diaphragm's end of the face, 0 mid face, +1 at the open end. The sum of
+//     tip relief A       A ((q - start)/(1 - start))^power      for q > start
+//     root relief B      B (start - q)/start                    for q < start
+//     crowning C         C (2 h - 1)^2
+//     slope S            S h  when S > 0,  |S| (1 - h)  when S < 0
+//     spline             natural cubic through equidistant values, h = 0 to 1 (one: constant, two: straight)
+//     lead crowning L    L zeta^2
+//     lead taper K       K (1 + zeta)/2  when K > 0,  |K| (1 - zeta)/2  when K < 0
+//     end relief E       E (1 - d/length)^2  at distance d < length from either end of the face
+// must not be negative. Derivatives with respect to slope and taper at zero are those towards positive
+// values.
 
 #include "model/gear/gear.hpp"
 #include "model/gear/outcome.hpp"

@@ -147,6 +147,14 @@ TEST(Cyclic, a_sector_that_is_not_its_mirror_image_is_refused) {
   EXPECT_THROW((void)cyclic_responses(mesh, request.material, plan.functionals), std::logic_error);
 }
 
+TEST(Cyclic, a_stiffness_that_is_not_positive_definite_is_refused) {
+  const ResponseRequest request = testing_bodies::broad_toothed_cup();
+  const SectorMesh mesh = sector_mesh(request.flexspline, request.mesh).value();
+  const ResponseFunctionals plan = response_functionals(request, mesh);
+  const Material impossible{.youngs_modulus_mpa = -1.0, .poisson_ratio = 0.3};
+  EXPECT_THROW((void)cyclic_responses(mesh, impossible, plan.functionals), NotPositiveStiffness);
+}
+
 TEST(Cyclic, stiffness_scales_out) {
   ResponseRequest request = testing_bodies::broad_toothed_cup();
   const std::vector<double> steel = unit_responses(request)->data;

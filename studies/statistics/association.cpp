@@ -1,0 +1,77 @@
+#include "studies/statistics/association.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace strainwave {
+
+namespace {
+
+constexpr double no_correlation = 2.0;
+
+/// More than rounding in the mean leaves behind?
+bool varies(double square_sum, double mean, double n) {
+  const double rounding = 1e-15 * mean;
+  return square_sum > n * rounding * rounding;
+}
+
+double correlation_of(std::span<const double> x, std::span<const double> y) {
+  if (x.size() != y.size() || x.size() < 4)
+    throw std::invalid_argument("a correlation needs at least 4 pairs");
+  const double n = static_cast<double>(x.size());
+  const double mx = std::accumulate(x.begin(), x.end(), 0.0) / n;
+  const double my = std::accumulate(y.begin(), y.end(), 0.0) / n;
+  double xx = 0.0, yy = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xx += (x[i] - mx) * (x[i] - mx);
+    yy += (y[i] - my) * (y[i] - my);
+    xy += (x[i] - mx) * (y[i] - my);
+  }
+  return varies(xx, mx, n) && varies(yy, my, n) ? std::clamp(xy / std::sqrt(xx * yy), -1.0, 1.0)
+                                                : no_correlation;
+}
+
+Estimate with_interval(double r, double spread) {
+  if (r == no_correlation)
+    return {0.0, {-1.0, 1.0}};
+  if (std::abs(r) == 1.0)
+    return {r, {r, r}};
+  const double z = std::atanh(r), half = normal_975 * spread;
+  return {r, {std::tanh(z - half), std::tanh(z + half)}};
+}
+
+} // namespace
+
+Estimate pearson_correlation(std::span<const double> x, std::span<const double> y) {
+  const double r = correlation_of(x, y);
+  return with_interval(r, 1.0 / std::sqrt(static_cast<double>(x.size()) - 3.0));
+}
+
+Estimate spearman_correlation(std::span<const double> x, std::span<const double> y) {
+  const double r = correlation_of(ranks_of(x), ranks_of(y));
+  return with_interval(r, std::sqrt((1.0 + 0.5 * r * r) / (static_cast<double>(x.size()) - 3.0)));
+}
+
+std::vector<double> ranks_of(std::span<const double> values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  std::vector<double> ranks(values.size());
+  for (std::size_t i = 0; i < order.size();) {
+    std::size_t end = i + 1;
+    while (end < order.size() && values[order[end]] == values[order[i]])
+      ++end;
+    const double shared = 0.5 * static_cast<double>(i + 1 + end); // mean of i + 1 … end
+    for (; i < end; ++i)
+      ranks[order[i]] = shared;
+  }
+  return ranks;
+}
+
+double elasticity(double derivative, double input, double output) {
+  return derivative * input / output;
+}
+
+} // namespace strainwave

@@ -1,0 +1,151 @@
+// `export` and `analyze --plots` from the command line: what ends how, and with which sentence.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// The seed gear on a mesh that solves in a moment.
+std::string coarse_seed() {
+  std::string text = text_of(fs::path(STRAINWAVE_SOURCE) / "studies/gallery/seed.toml");
+  text.resize(text.find("\n[mesh]"));
+  return text + "\n[mesh]\nper_pitch = 3\nalong_face = 3\nalong_wall = 4\ndiaphragm = 3\ntooth_height = 1\n"
+                "through_thickness = 1\n[load]\ntorque_nm = [7.0]\n";
+}
+
+class Export : public testing::Test {
+protected:
+  struct End {
+    int code;
+    std::string out, err;
+  };
+  Export() {
+    std::string pattern = (fs::temp_directory_path() / "strainwave-XXXXXX").string();
+    folder = mkdtemp(pattern.data());
+    std::ofstream(folder / "gear.toml") << coarse_seed();
+  }
+  ~Export() override { fs::remove_all(folder); }
+  End run(const std::string& arguments, const std::string& environment = {}) {
+    const int status = std::system(
+        fmt::format("cd '{0}' && STRAINWAVE_CACHE='{0}/cache' {1} '{2}' {3} > out.txt 2> err.txt < /dev/null",
+                    folder.string(), environment, STRAINWAVE_PROGRAM, arguments)
+            .c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / "out.txt"),
+            text_of(folder / "err.txt")};
+  }
+  fs::path folder;
+};
+
+TEST_F(Export, writes_every_kind_of_file_and_nothing_to_stdout) {
+  const End end = run("export gear.toml --calculix cup.inp --vtkhdf cup.vtkhdf --profile teeth.dxf");
+  EXPECT_EQ(end.code, 0) << end.err;
+  EXPECT_EQ(end.out, "");
+  EXPECT_TRUE(text_of(folder / "cup.inp").starts_with("** Cup of the strain wave gear"));
+  EXPECT_TRUE(text_of(folder / "cup.vtkhdf").starts_with("\x89HDF"));
+  EXPECT_NE(text_of(folder / "teeth.dxf").find("POLYLINE"), std::string::npos);
+  EXPECT_EQ(run("export gear.toml --profile teeth.csv --teeth 0 3 --points 5").code, 0);
+  EXPECT_TRUE(text_of(folder / "teeth.csv").starts_with("outline,tooth"));
+  for (const auto& entry : fs::directory_iterator(folder))
+    EXPECT_NE(entry.path().extension(), ".part");
+}
+
+TEST_F(Export, deck_can_carry_the_contact_forces) {
+  const End end = run("export gear.toml --calculix cup.inp --contact-forces");
+  EXPECT_EQ(end.code, 0) << end.err;
+  const std::string deck = text_of(folder / "cup.inp");
+  EXPECT_NE(deck.find("** Step 1: assembled\n** Step 2: loaded_7Nm\n"), std::string::npos);
+}
+
+TEST_F(Export, nothing_asked_for_and_unknown_endings_are_wrong_use) {
+  EXPECT_EQ(run("export gear.toml").code, 2);
+  const End end = run("export gear.toml --profile teeth.step");
+  EXPECT_EQ(end.code, 2);
+  EXPECT_NE(end.err.find("must end in .dxf or .csv"), std::string::npos) << end.err;
+}
+
+TEST_F(Export, places_that_cannot_be_written_end_with_74_and_the_cause) {
+  for (const char* option : {"--calculix", "--vtkhdf", "--profile"}) {
+    const std::string name = std::string(option) == "--profile" ? "t.csv" : "t";
+    const End end = run(fmt::format("export gear.toml {} nowhere/{}", option, name));
+    EXPECT_EQ(end.code, 74) << option;
+    EXPECT_NE(end.err.find("cannot write nowhere/" + name + ": No such file or directory"), std::string::npos)
+        << end.err;
+  }
+  fs::create_directory(folder / "dir.csv");
+  const End end = run("export gear.toml --profile dir.csv");
+  EXPECT_EQ(end.code, 74);
+  EXPECT_NE(end.err.find("Is a directory"), std::string::npos) << end.err;
+}
+
+TEST_F(Export, full_disk_ends_with_74_and_leaves_no_half_file) {
+  if (!fs::exists("/dev/full"))
+    GTEST_SKIP();
+  fs::create_symlink("/dev/full", folder / "cup.inp.part");
+  const End end = run("export gear.toml --calculix cup.inp");
+  EXPECT_EQ(end.code, 74);
+  EXPECT_NE(end.err.find("No space left"), std::string::npos) << end.err;
+  EXPECT_FALSE(fs::exists(folder / "cup.inp"));
+}
+
+/// The coarse seed gear with another value of one key, at its first place.
+std::string changed(const std::string& key, const std::string& value) {
+  std::string text = coarse_seed();
+  const std::size_t at = text.find("\n" + key) + 1;
+  return text.replace(at, text.find('\n', at) - at, key + " = " + value);
+}
+
+TEST_F(Export, gear_that_contradicts_itself_ends_with_3_and_writes_nothing) {
+  std::ofstream(folder / "bad.toml") << changed("tip_radius_mm", "15.6"); // no tooth is left up there
+  for (const char* what : {"--calculix x.inp", "--vtkhdf x.vtkhdf", "--profile x.dxf"}) {
+    const End end = run(fmt::format("export bad.toml {}", what));
+    EXPECT_EQ(end.code, 3) << what << end.err;
+    EXPECT_NE(end.err.find("strainwave: "), std::string::npos);
+  }
+  for (const char* name : {"x.inp", "x.vtkhdf", "x.dxf"})
+    EXPECT_FALSE(fs::exists(folder / name));
+}
+
+TEST_F(Export, wave_generator_without_wrap_has_no_fields_and_no_profile_but_a_deck_of_its_cup) {
+  std::ofstream(folder / "bad.toml") << changed("max_radial_deformation_mm", "0.59"); // e/u0 = 1.02
+  EXPECT_EQ(run("export bad.toml --vtkhdf x.vtkhdf").code, 3);
+  EXPECT_EQ(run("export bad.toml --profile x.dxf").code, 3);
+  EXPECT_EQ(run("export bad.toml --calculix x.inp").code, 0);
+}
+
+TEST_F(Export, analyze_draws_plots_or_says_why_not) {
+  const End without = run("analyze gear.toml --plots plain", "PATH=/nonexistent");
+  EXPECT_EQ(without.code, 0) << without.err;
+  EXPECT_NE(without.err.find("gnuplot is not installed"), std::string::npos) << without.err;
+  EXPECT_TRUE(fs::exists(folder / "plain/meshing-forces.dat"));
+  EXPECT_FALSE(fs::exists(folder / "plain/meshing-forces.svg"));
+  const End into_file = run("analyze gear.toml --plots gear.toml/x");
+  EXPECT_EQ(into_file.code, 74) << into_file.err;
+  if (std::system("command -v gnuplot > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "gnuplot (package gnuplot-nox) is not installed";
+  const End end = run("analyze gear.toml --plots plots");
+  EXPECT_EQ(end.code, 0) << end.err;
+  EXPECT_EQ(end.err, "");
+  for (const char* name :
+       {"initial-backlash", "meshing-forces", "loaded-backlash", "torque-rotation", "assembled-shape"})
+    EXPECT_GT(fs::file_size(folder / "plots" / (std::string(name) + ".svg")), 1000u) << name;
+}
+
+} // namespace
