@@ -12,7 +12,7 @@ bool Epigraph::has_pieces() const {
 }
 
 std::optional<std::vector<double>> Epigraph::values(const Evaluation& evaluation) const {
-  const Point point = problem_.read({}, evaluation);
+  const SearchPoint point = problem_.read({}, evaluation);
   if (!point.ok)
     return std::nullopt;
   std::vector<double> rows;

@@ -33,7 +33,7 @@ std::vector<double> tooth_forces(const Gear& gear, const std::vector<ForwardResu
 
 } // namespace
 
-GearEvaluator::GearEvaluator(Gear base, Design design, std::vector<Load> loads, ForwardOptions options,
+GearEvaluator::GearEvaluator(Gear base, DesignSpace design, std::vector<Load> loads, ForwardOptions options,
                              std::function<void(const std::string&)> warn)
     : base_(std::move(base)), design_(std::move(design)), loads_(std::move(loads)), options_(options),
       warn_(std::move(warn)) {}

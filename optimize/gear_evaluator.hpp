@@ -21,7 +21,7 @@ class GearEvaluator : public Evaluator {
 public:
   /// Each of `loads` replaces the load of `base`; rated torque included. `warn` hears sentences for people (a
   /// damaged cache file), from any thread.
-  GearEvaluator(Gear base, Design design, std::vector<Load> loads, ForwardOptions options = {},
+  GearEvaluator(Gear base, DesignSpace design, std::vector<Load> loads, ForwardOptions options = {},
                 std::function<void(const std::string&)> warn = {});
 
   std::span<const Response> responses() const override { return gear_responses(); }
@@ -31,7 +31,7 @@ public:
   /// The unmodified gear.
   Evaluation evaluate_base() { return evaluate_gear(base_); }
 
-  const Design& design() const { return design_; }
+  const DesignSpace& design() const { return design_; }
   /// The gear itself, for files and reports.
   Gear gear(std::span<const double> x) const { return design_.apply(base_, x); }
 
@@ -41,7 +41,7 @@ private:
   void give_back(std::unique_ptr<ForwardModel> model);
 
   Gear base_;
-  Design design_;
+  DesignSpace design_;
   std::vector<Load> loads_;
   ForwardOptions options_;
   std::function<void(const std::string&)> warn_;

@@ -29,8 +29,11 @@ SearchResult multi_start(const Problem& problem, const OptimiseSettings& setting
     const SearchResult& result = results[k];
     const std::size_t asked = found.asked + result.asked;
     const std::size_t failed = found.failed + result.failed;
+    std::vector<SearchPoint> seen = std::move(found.seen);
+    seen.insert(seen.end(), result.seen.begin(), result.seen.end());
     if (result.best && (!found.best || better(*result.best, *found.best)))
       found = result;
+    found.seen = std::move(seen);
     stopped = stopped || result.end == SearchEnd::stopped;
     found.asked = asked;
     found.failed = failed;
@@ -61,7 +64,6 @@ OptimiseResult optimise(const Problem& problem, const OptimiseSettings& settings
   search.search.budget = std::max<std::size_t>(1, 3 * budget / 4);
   SearchResult found = settings.search.method == global_method ? global_then_polish(problem, search, monitor)
                                                                : multi_start(problem, search, monitor);
-  found.seen.clear();
   const std::size_t left = budget > found.asked ? budget - found.asked : 0;
   const bool at_rest = found.end != SearchEnd::stopped && found.end != SearchEnd::all_failed;
   const bool confirmed = at_rest && confirm(problem, found, settings.search, left, monitor);

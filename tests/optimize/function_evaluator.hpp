@@ -64,7 +64,7 @@ struct Box {
   double lower, upper, start;
 };
 
-inline Design box_design(const std::vector<Box>& box) {
+inline DesignSpace box_design(const std::vector<Box>& box) {
   static const std::vector<std::string> paths = [] {
     std::vector<std::string> all;
     for (const char* member : {"flexspline", "circular_spline"})
@@ -80,7 +80,7 @@ inline Design box_design(const std::vector<Box>& box) {
                          .upper = box[i].upper,
                          .start = box[i].start,
                          .links = {}});
-  return Design(std::move(variables));
+  return DesignSpace(std::move(variables));
 }
 
 /// A minimisation with g_k ≤ 0 and a known answer.

@@ -114,7 +114,7 @@ TEST_F(Ipopt, PointsKeepTheirBoundsExactly) {
                            .limits = 0,
                            .least = -2.0};
   const auto result = run(known, 0, {.budget = 500, .tolerance = 1e-6});
-  for (const Point& point : result.seen)
+  for (const SearchPoint& point : result.seen)
     for (const double y : point.y)
       EXPECT_TRUE(y >= 0.0 && y <= 1.0) << y;
   EXPECT_NEAR(result.best->objective, known.least, 1e-5);
