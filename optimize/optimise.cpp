@@ -43,6 +43,24 @@ SearchResult multi_start(const Problem& problem, const OptimiseSettings& setting
   return found;
 }
 
+/// No search may end below a design that was there before it.
+void take_known(const Problem& problem, const std::vector<std::vector<double>>& known, SearchResult& found,
+                Monitor& monitor) {
+  Recorder recorder(problem, known.size(), monitor);
+  try {
+    for (const auto& y : known)
+      (void)recorder.evaluate(y);
+  } catch (const Recorder::Ended& end) {
+    found.end = end.end;
+  }
+  const SearchResult& result = recorder.result();
+  found.asked += result.asked;
+  found.failed += result.failed;
+  if (result.best && (!found.best || better(*result.best, *found.best)))
+    found.best = result.best;
+  found.seen.insert(found.seen.end(), result.seen.begin(), result.seen.end());
+}
+
 } // namespace
 
 std::span<const std::string_view> method_names() {
@@ -64,6 +82,8 @@ OptimiseResult optimise(const Problem& problem, const OptimiseSettings& settings
   search.search.budget = std::max<std::size_t>(1, 3 * budget / 4);
   SearchResult found = settings.search.method == global_method ? global_then_polish(problem, search, monitor)
                                                                : multi_start(problem, search, monitor);
+  if (found.end != SearchEnd::stopped)
+    take_known(problem, settings.known, found, monitor);
   const std::size_t left = budget > found.asked ? budget - found.asked : 0;
   const bool at_rest = found.end != SearchEnd::stopped && found.end != SearchEnd::all_failed;
   const bool confirmed = at_rest && confirm(problem, found, settings.search, left, monitor);

@@ -18,9 +18,10 @@ inline constexpr std::string_view global_method = "global_then_polish";
 std::span<const std::string_view> method_names();
 
 struct OptimiseSettings {
-  SearchSettings search;  ///< budget: of all searches together
-  std::size_t starts = 1; ///< searches side by side, or valleys to polish
-  int threads = 1;        ///< 0: all cores
+  SearchSettings search;                  ///< budget: of all searches together
+  std::size_t starts = 1;                 ///< searches side by side, or valleys to polish
+  int threads = 1;                        ///< 0: all cores
+  std::vector<std::vector<double>> known = {}; ///< scaled designs that compete as they are: the unmodified gear
 };
 
 struct OptimiseResult {

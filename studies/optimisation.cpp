@@ -65,6 +65,15 @@ std::vector<InputChange> inputs_of(const DesignSpace& design, const Gear& before
   return inputs;
 }
 
+/// The unmodified gear as a design, if it lies within the bounds.
+std::vector<std::vector<double>> unmodified(const DesignSpace& design, const Gear& gear) {
+  const std::vector<double> y = design.scaled(design.read(gear)), upper = design.scaled_upper();
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (!(y[i] >= 0.0 && y[i] <= upper[i]))
+      return {};
+  return {y};
+}
+
 /// The gear of a judged design, and its numbers beside the unmodified ones.
 Gear gear_of(const OptimisationReport& report, const DesignSpace& design, const Judgement& judgement) {
   if (!judgement.fresh || !judgement.fresh->ok)
@@ -106,6 +115,23 @@ void report_front(OptimisationReport& report, const DesignSpace& design,
 }
 
 } // namespace
+
+std::vector<FailureCount> count_failures(const std::vector<StoredPoint>& points) {
+  std::vector<FailureCount> counts;
+  for (const StoredPoint& point : points) {
+    const Evaluation& e = *point.evaluation;
+    if (e.ok)
+      continue;
+    auto known = std::find_if(counts.begin(), counts.end(),
+                              [&](const FailureCount& c) { return c.status == e.status; });
+    if (known == counts.end())
+      known = counts.insert(counts.end(), {e.status, 0, e.message});
+    ++known->count;
+  }
+  std::stable_sort(counts.begin(), counts.end(),
+                   [](const FailureCount& a, const FailureCount& b) { return a.count > b.count; });
+  return counts;
+}
 
 StudyVocabulary study_vocabulary() {
   return {.outputs = gear_response_names(),
@@ -178,7 +204,8 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
                                              .tolerance = study.method.tolerance,
                                              .seed = static_cast<std::uint64_t>(study.seed)},
                                   .starts = static_cast<std::size_t>(study.method.starts),
-                                  .threads = options.threads};
+                                  .threads = options.threads,
+                                  .known = unmodified(design, study.gear)};
   if (study.kind == StudyKind::pareto) {
     const Objective second{study.pareto.output, study.pareto.goal == Goal::maximise};
     const auto points = static_cast<std::size_t>(study.pareto.points);

@@ -44,6 +44,13 @@ struct FrontPoint {
   std::optional<Evaluation> outputs;
 };
 
+/// Failed evaluations of one kind.
+struct FailureCount {
+  std::string status;
+  std::size_t count = 0;
+  std::string example; ///< the sentence of one of them
+};
+
 struct OptimisationReport {
   StudyFile study;
   std::string method;
@@ -60,6 +67,9 @@ struct OptimisationReport {
   Certificate certificate_worst;
   std::vector<StoredPoint> points; ///< all evaluations, ascending in x, so that no number of threads shows
 };
+
+/// By status, the most frequent first.
+std::vector<FailureCount> count_failures(const std::vector<StoredPoint>& points);
 
 /// The names that study files may use here, for load_study().
 StudyVocabulary study_vocabulary();

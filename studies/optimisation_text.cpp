@@ -139,6 +139,9 @@ std::string optimisation_table(const OptimisationReport& report, const std::stri
   fmt::format_to(out, "\nVerdict      {}: {}\n", verdict_name(report.verdict), report.message);
   fmt::format_to(out, "Evaluations  {} done, {} reused, {} failed; {:.1f} s\n", report.counts.done,
                  report.counts.reused, report.counts.failed, report.seconds);
+  for (const FailureCount& failure : count_failures(report.points))
+    fmt::format_to(out, "             {} {}, for example: {}\n", failure.count, failure.status,
+                   failure.example);
   fmt::format_to(out, "Folder       {}\n", folder);
   return text;
 }
@@ -155,6 +158,10 @@ Json optimisation_json(const OptimisationReport& report, const std::string& fold
   json["evaluations"] = {
       {"done", report.counts.done}, {"reused", report.counts.reused}, {"failed", report.counts.failed}};
   json["seconds"] = report.seconds;
+  json["failures"] = Json::array();
+  for (const FailureCount& failure : count_failures(report.points))
+    json["failures"].push_back(
+        {{"status", failure.status}, {"count", failure.count}, {"example", failure.example}});
   Json before = Json::object(), after = Json::object();
   for (const InputChange& input : report.inputs) {
     before[input.path] = input.baseline;

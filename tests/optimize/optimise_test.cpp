@@ -69,6 +69,22 @@ TEST(Optimise, ResultIsTheSameForAnyNumberOfThreads) {
             alone.found.best->objective); // the start's own valley is not the deepest
 }
 
+TEST(Optimise, NeverEndsBelowADesignThatIsKnown) {
+  const KnownProblem two_valleys{
+      .name = "two valleys",
+      .box = {{-3, 3, 2}},
+      .function =
+          [](std::span<const double> x) { return std::vector{(x[0] * x[0] - 4) * (x[0] * x[0] - 4) + x[0]}; },
+      .limits = 0,
+      .least = -2.0156}; // near −2; the start lies in the other one
+  OptimiseSettings settings{.search = {.budget = 400, .first_step = 0.02}};
+  EXPECT_GT(solve(two_valleys, settings).judgement.best->objective, 1.0);
+  settings.known = {{1.1 / 6.0}}; // x = −1.9
+  const auto result = solve(two_valleys, settings);
+  EXPECT_EQ(result.judgement.verdict, Verdict::converged);
+  EXPECT_NEAR(result.judgement.best->objective, two_valleys.least, 1e-3);
+}
+
 TEST(GlobalThenPolish, FindsTheBottomOfTheDeepestValley) {
   for (const KnownProblem& known : known_global_problems()) {
     const auto result =

@@ -17,7 +17,7 @@
 namespace strainwave {
 namespace {
 
-/// Tip relief alone, on a coarse cup without a disk cache.
+/// Root relief and u0, on a coarse cup without a disk cache.
 const std::string coarse_study = R"(kind = "optimize"
 gear = "seed.toml"
 [override]
@@ -25,17 +25,23 @@ mesh = { per_pitch = 3, along_face = 4, along_wall = 5, diaphragm = 3, tooth_hei
 [[load_case]]
 torque_nm = 7.0
 [[variable]]
-path = "flank_modification.flexspline.tip_relief_um"
+path = "flank_modification.flexspline.root_relief_um"
 lower = 0.0
-upper = 6.0
-start = 1.0
+upper = 12.0
+start = 3.0
+[[variable]]
+path = "wave_generator.max_radial_deformation_mm"
+lower = 0.19
+upper = 0.21
+link = { path = "wave_generator.eccentricity_mm", ratio = 3.0 }
 [objective]
 output = "peak_force_n"
 [[constraint]]
 output = "secant_nm_per_rad"
 min_ratio_to_baseline = 0.95
 [method]
-budget = 60
+name = "cobyla"
+budget = 160
 tolerance = 1e-3
 )";
 
@@ -63,7 +69,7 @@ TEST_F(CoarseStudy, LowersThePeakForceAndKeepsTheStiffness) {
   const auto report = run(coarse_study);
   ASSERT_TRUE(report.ok());
   EXPECT_EQ(report->verdict, Verdict::converged) << report->message;
-  EXPECT_LT(value(*report->best, "peak_force_n"), 0.97 * value(report->baseline, "peak_force_n"));
+  EXPECT_LT(value(*report->best, "peak_force_n"), 0.995 * value(report->baseline, "peak_force_n"));
   EXPECT_GE(value(*report->best, "secant_nm_per_rad"),
             0.95 * value(report->baseline, "secant_nm_per_rad") * (1 - 1e-6));
   EXPECT_EQ(report->counts.failed, 0u);
@@ -72,7 +78,7 @@ TEST_F(CoarseStudy, LowersThePeakForceAndKeepsTheStiffness) {
 
 TEST_F(CoarseStudy, ThreadsDoNotShowInTheResult) {
   const StudyFile study =
-      folder.read(with(coarse_study, "budget = 60", "budget = 90\nstarts = 3"), false, study_vocabulary());
+      folder.read(with(coarse_study, "budget = 160", "budget = 120\nstarts = 3"), false, study_vocabulary());
   const auto one = run_optimisation(study, options);
   options.threads = 2;
   const auto two = run_optimisation(study, options);
@@ -115,7 +121,7 @@ TEST_F(CoarseStudy, FolderHoldsTheOptimisedGearAndEveryEvaluation) {
   results.write_results(*report);
   const Gear gear = load_gear(folder.path("out/best.toml")).gear;
   EXPECT_EQ(canonical_bits(gear), canonical_bits(*report->best_gear));
-  EXPECT_EQ(gear.flank_modification.flexspline.tip_relief_um, report->inputs[0].best);
+  EXPECT_EQ(gear.flank_modification.flexspline.root_relief_um, report->inputs[0].best);
 
   const hid_t file = H5Fopen(folder.path("out/results.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
@@ -123,7 +129,7 @@ TEST_F(CoarseStudy, FolderHoldsTheOptimisedGearAndEveryEvaluation) {
   H5LTget_dataset_info(file, "outputs", shape, nullptr, nullptr);
   EXPECT_EQ(shape[0], report->points.size());
   EXPECT_EQ(shape[1], gear_responses().size());
-  std::vector<double> inputs(report->points.size());
+  std::vector<double> inputs(report->points.size() * report->study.variables.size());
   H5LTread_dataset_double(file, "inputs", inputs.data());
   EXPECT_EQ(inputs[0], report->points[0].x[0]);
   H5Fclose(file);
@@ -138,10 +144,35 @@ TEST_F(CoarseStudy, JsonHasTheKeysOfTheInterface) {
   for (const char* key :
        {"kind", "verdict", "evaluations", "seconds", "best", "baseline", "certificate_worst", "folder"})
     EXPECT_TRUE(json.contains(key)) << key;
-  EXPECT_EQ(json["best"]["inputs"]["flank_modification.flexspline.tip_relief_um"], report->inputs[0].best);
-  EXPECT_EQ(json["baseline"]["inputs"]["flank_modification.flexspline.tip_relief_um"], 0.0);
+  EXPECT_EQ(json["best"]["inputs"]["flank_modification.flexspline.root_relief_um"], report->inputs[0].best);
+  EXPECT_EQ(json["baseline"]["inputs"]["flank_modification.flexspline.root_relief_um"], 0.0);
   EXPECT_EQ(json["evaluations"]["failed"], 0);
   EXPECT_TRUE(json["best"]["outputs"]["transmission_error_arcsec"].is_null()); // one phase
+}
+
+TEST_F(CoarseStudy, ParetoStudyGivesAFrontThatFallsInOneAimAndRisesInTheOther) {
+  std::string text = with(coarse_study, "\"optimize\"", "\"pareto\"");
+  text = with(text, "[method]\nname = \"cobyla\"\nbudget = 160",
+              "[pareto]\noutput = \"rotation_rad\"\npoints = 3\n[method]\nname = \"cobyla\"\nbudget = 250");
+  const auto report = run(text);
+  ASSERT_TRUE(report.ok());
+  ASSERT_EQ(report->front.size(), 3u);
+  for (std::size_t j = 0; j + 1 < report->front.size(); ++j) {
+    const Evaluation& a = *report->front[j].outputs;
+    const Evaluation& b = *report->front[j + 1].outputs;
+    EXPECT_LE(value(a, "peak_force_n"), value(b, "peak_force_n") * (1 + 1e-3));
+    EXPECT_GE(value(a, "rotation_rad"), value(b, "rotation_rad") * (1 - 1e-6));
+    EXPECT_LE(value(b, "rotation_rad"), *report->front[j + 1].bound * (1 + 1e-6));
+  }
+  EXPECT_EQ(optimisation_json(*report, "out")["front"].size(), 3u);
+}
+
+TEST_F(CoarseStudy, ParetoStudyWithoutASecondAimIsRefused) {
+  EXPECT_NE(folder.complaint(with(coarse_study, "\"optimize\"", "\"pareto\""))
+                .find("the table [pareto] is missing"),
+            std::string::npos);
+  EXPECT_NE(folder.complaint(coarse_study + "[pareto]\noutput = \"rotation_rad\"\n").find("of no use"),
+            std::string::npos);
 }
 
 TEST(StudyLoads, CasesWithTheSamePhasesShareAnAnalysis) {
@@ -177,9 +208,8 @@ TEST(GalleryStudy, SeedOptimizeReducedFindsTheKnownOptimum) {
   const auto report = run_optimisation(study, {.stop = {}, .progress = {}, .warn = {}});
   ASSERT_TRUE(report.ok());
   EXPECT_EQ(report->verdict, Verdict::converged) << report->message;
-  EXPECT_NEAR(value(report->baseline, "peak_force_n"), 47.69, 0.01);
-  EXPECT_NEAR(value(*report->best, "peak_force_n"), 39.51,
-              0.05); // the study's tolerance, 1e-3 of the baseline
+  EXPECT_NEAR(value(report->baseline, "peak_force_n"), 47.186, 0.005);
+  EXPECT_NEAR(value(*report->best, "peak_force_n"), 42.17, 0.05); // 1e-3 of the baseline, the tolerance
 }
 
 } // namespace
