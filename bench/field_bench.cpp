@@ -1,7 +1,6 @@
-// Displacement fields of the whole cup under assembly-like loads: sector by sector, and by factorizing the
-// whole ring.
+// Displacement fields of the whole cup under assembly-like loads: sector by sector, and by factorizing
+// the whole ring.
 
-#include "model/flexspline/cyclic.hpp"
 #include "model/flexspline/cyclic_field.hpp"
 #include "model/flexspline/responses.hpp"
 #include "model/flexspline/ring.hpp"
@@ -51,17 +50,6 @@ void field_by_whole_ring(benchmark::State& state) {
   }
 }
 BENCHMARK(field_by_whole_ring)->Unit(benchmark::kMillisecond)->Iterations(1);
-
-void field_by_harmonics(benchmark::State& state) {
-  const SeedCup cup;
-  std::vector<RingLoad> loads;
-  for (const FieldLoad& load : cup.cases[0])
-    loads.push_back(
-        {static_cast<std::size_t>(load.functional - cup.functionals.data()), load.sector, load.factor});
-  for (auto _ : state)
-    benchmark::DoNotOptimize(ring_displacements(cup.mesh, cup.gear.material, cup.functionals, loads, 1));
-}
-BENCHMARK(field_by_harmonics)->Unit(benchmark::kMillisecond);
 
 void stress(benchmark::State& state) {
   const SeedCup cup;

@@ -84,17 +84,6 @@ HarmonicResponse HarmonicSolver::response(int harmonic) const {
   return {outside.real + within.real, outside.imaginary + within.imaginary};
 }
 
-MatrixXd HarmonicSolver::displacement(int harmonic, const Eigen::VectorXd& real_weights,
-                                      const Eigen::VectorXd& imaginary_weights) const {
-  const Wave wave = wave_of(harmonic);
-  const MatrixXd lower = factor(harmonic, wave);
-  const Columns columns = displaced(lower, forward(lower, wave), wave);
-  MatrixXd mix(2 * count, 2); // (Re + i Im)(w_r + i w_i)
-  mix.col(0) << real_weights, -imaginary_weights;
-  mix.col(1) << imaginary_weights, real_weights;
-  return sector.displacement(columns.force * mix, columns.boundary * mix);
-}
-
 HarmonicSolver::Wave HarmonicSolver::wave_of(int harmonic) const {
   const double alpha = 2.0 * std::numbers::pi * harmonic / sectors;
   return {std::cos(alpha), std::sin(alpha)};

@@ -45,27 +45,6 @@ TEST(CyclicField, equals_the_solution_of_the_whole_ring) {
   EXPECT_LT((field.displacement - full).cwiseAbs().maxCoeff(), 1e-8 * full.cwiseAbs().maxCoeff());
 }
 
-TEST(CyclicField, equals_the_solution_from_the_harmonics_of_the_unit_responses) {
-  const Cup cup;
-  const std::vector<std::vector<FieldLoad>> cases = cup.cases();
-  const RingField field = ring_field(cup.mesh, cup.request.material, cases);
-  for (std::size_t c = 0; c < 2; ++c) {
-    std::vector<RingLoad> loads;
-    for (const FieldLoad& load : cases[c])
-      loads.push_back({static_cast<std::size_t>(load.functional - cup.plan.functionals.data()), load.sector,
-                       load.factor});
-    const std::vector<Point> other =
-        ring_displacements(cup.mesh, cup.request.material, cup.plan.functionals, loads);
-    const std::vector<double> ours =
-        cartesian(cup.mesh, field.displacement.col(static_cast<Eigen::Index>(c)));
-    double worst = 0.0;
-    for (std::size_t n = 0; n < other.size(); ++n)
-      worst = std::max({worst, std::fabs(other[n].x - ours[3 * n]), std::fabs(other[n].y - ours[3 * n + 1]),
-                        std::fabs(other[n].z - ours[3 * n + 2])});
-    EXPECT_LT(worst, 1e-8 * field.displacement.cwiseAbs().maxCoeff());
-  }
-}
-
 TEST(CyclicField, is_in_equilibrium) {
   const Cup cup;
   EXPECT_LT(ring_field(cup.mesh, cup.request.material, cup.cases()).residual, 1e-8);
@@ -89,7 +68,7 @@ TEST(LargestVonMises, uniform_strain_gives_its_closed_form_in_every_element) {
   Eigen::MatrixXd u(3 * static_cast<Eigen::Index>(cup.mesh.ring_nodes()), 1);
   for (int j = 0; j < cup.mesh.sectors; ++j)
     for (int i = 0; i < static_cast<int>(cup.mesh.nodes.size()); ++i) {
-      const Point p = cup.mesh.node(i, j);
+      const CartesianPoint p = cup.mesh.node(i, j);
       const double phi = cup.mesh.angle(i, j), ux = s / e * p.x, uy = -nu * s / e * p.y;
       const Eigen::Index at = 3 * cup.mesh.ring_node(i, j);
       u(at, 0) = std::cos(phi) * ux + std::sin(phi) * uy;
