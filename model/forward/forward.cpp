@@ -1,6 +1,7 @@
 #include "model/forward/forward.hpp"
 
 #include "model/forward/load_cases.hpp"
+#include "model/forward/contact_forces.hpp"
 #include "model/forward/flank_points.hpp"
 #include "model/forward/inputs.hpp"
 #include "model/forward/stage_memory.hpp"
