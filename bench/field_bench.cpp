@@ -1,6 +1,7 @@
 // Displacement fields of the whole cup under assembly-like loads: sector by sector, and by factorizing the
 // whole ring.
 
+#include "model/flexspline/cyclic.hpp"
 #include "model/flexspline/cyclic_field.hpp"
 #include "model/flexspline/responses.hpp"
 #include "model/flexspline/ring.hpp"
@@ -15,7 +16,7 @@ struct SeedCup {
   Gear gear = seed_gear();
   SectorMesh mesh = sector_mesh(gear.flexspline, gear.mesh).value();
   std::vector<Functional> functionals;
-  std::vector<std::vector<RingLoad>> cases{4};
+  std::vector<std::vector<FieldLoad>> cases{4};
   SeedCup() {
     ResponseRequest request;
     request.flexspline = gear.flexspline;
@@ -44,12 +45,23 @@ void field_by_whole_ring(benchmark::State& state) {
     const RingPart ring(cup.mesh);
     Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3 * ring.nodes(), 4);
     for (std::size_t c = 0; c < 4; ++c)
-      for (const RingLoad& load : cup.cases[c])
+      for (const FieldLoad& load : cup.cases[c])
         ring.add_load(*load.functional, load.sector, load.factor, force.col(static_cast<Eigen::Index>(c)));
     benchmark::DoNotOptimize(RingSolver(ring, cup.gear.material).solve(force));
   }
 }
 BENCHMARK(field_by_whole_ring)->Unit(benchmark::kMillisecond)->Iterations(1);
+
+void field_by_harmonics(benchmark::State& state) {
+  const SeedCup cup;
+  std::vector<RingLoad> loads;
+  for (const FieldLoad& load : cup.cases[0])
+    loads.push_back(
+        {static_cast<std::size_t>(load.functional - cup.functionals.data()), load.sector, load.factor});
+  for (auto _ : state)
+    benchmark::DoNotOptimize(ring_displacements(cup.mesh, cup.gear.material, cup.functionals, loads, 1));
+}
+BENCHMARK(field_by_harmonics)->Unit(benchmark::kMillisecond);
 
 void stress(benchmark::State& state) {
   const SeedCup cup;

@@ -3,6 +3,8 @@
 #include "model/flexspline/cyclic_field.hpp"
 
 #include "../flexspline/bodies.hpp"
+#include "model/export/cup_grid.hpp"
+#include "model/flexspline/cyclic.hpp"
 #include "model/flexspline/ring.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +23,7 @@ struct Cup {
     return plan.functionals[static_cast<std::size_t>(plan.layout.wall(station, 1, direction))];
   }
   /// Loads without any symmetry; one with a part on the next sector, across the ring's seam too.
-  std::vector<std::vector<RingLoad>> cases() const {
+  std::vector<std::vector<FieldLoad>> cases() const {
     return {{{&flank(2, 0), 0, 1.0}, {&flank(1, 1), 7, -0.4}, {&wall(1, 1), 19, 2.0}},
             {{&wall(0, 0), 3, 1.0}, {&wall(1, 0), 4, 0.3}}};
   }
@@ -29,18 +31,39 @@ struct Cup {
 
 TEST(CyclicField, equals_the_solution_of_the_whole_ring) {
   const Cup cup;
-  const std::vector<std::vector<RingLoad>> cases = cup.cases();
+  const std::vector<std::vector<FieldLoad>> cases = cup.cases();
   const RingField field = ring_field(cup.mesh, cup.request.material, cases);
   const RingPart ring(cup.mesh);
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3 * ring.nodes(), 2);
   for (std::size_t c = 0; c < 2; ++c)
-    for (const RingLoad& load : cases[c])
+    for (const FieldLoad& load : cases[c])
       ring.add_load(*load.functional, load.sector, load.factor, force.col(static_cast<Eigen::Index>(c)));
   const Eigen::MatrixXd full = RingSolver(ring, cup.request.material).solve(force);
   ASSERT_EQ(field.displacement.rows(), full.rows());
   EXPECT_LT((field.force - force).cwiseAbs().maxCoeff(), 1e-15); // rounding of sums
   // Both lose about log10(condition of a thin cup) ≈ 7 digits of 16.
   EXPECT_LT((field.displacement - full).cwiseAbs().maxCoeff(), 1e-8 * full.cwiseAbs().maxCoeff());
+}
+
+TEST(CyclicField, equals_the_solution_from_the_harmonics_of_the_unit_responses) {
+  const Cup cup;
+  const std::vector<std::vector<FieldLoad>> cases = cup.cases();
+  const RingField field = ring_field(cup.mesh, cup.request.material, cases);
+  for (std::size_t c = 0; c < 2; ++c) {
+    std::vector<RingLoad> loads;
+    for (const FieldLoad& load : cases[c])
+      loads.push_back({static_cast<std::size_t>(load.functional - cup.plan.functionals.data()), load.sector,
+                       load.factor});
+    const std::vector<Point> other =
+        ring_displacements(cup.mesh, cup.request.material, cup.plan.functionals, loads);
+    const std::vector<double> ours =
+        cartesian(cup.mesh, field.displacement.col(static_cast<Eigen::Index>(c)));
+    double worst = 0.0;
+    for (std::size_t n = 0; n < other.size(); ++n)
+      worst = std::max({worst, std::fabs(other[n].x - ours[3 * n]), std::fabs(other[n].y - ours[3 * n + 1]),
+                        std::fabs(other[n].z - ours[3 * n + 2])});
+    EXPECT_LT(worst, 1e-8 * field.displacement.cwiseAbs().maxCoeff());
+  }
 }
 
 TEST(CyclicField, is_in_equilibrium) {
@@ -53,7 +76,7 @@ TEST(CyclicField, odd_number_of_sectors_is_solved_too) {
   cup.request.flexspline.teeth = 19;
   cup.mesh = sector_mesh(cup.request.flexspline, cup.request.mesh).value();
   cup.plan = response_functionals(cup.request, cup.mesh);
-  const std::vector<std::vector<RingLoad>> cases = {
+  const std::vector<std::vector<FieldLoad>> cases = {
       {{&cup.flank(0, 0), 18, 1.0}, {&cup.wall(1, 1), 18, 1.0}}};
   EXPECT_LT(ring_field(cup.mesh, cup.request.material, cases).residual, 1e-8);
 }

@@ -122,7 +122,7 @@ TEST(Deck, calculix_gives_the_fields_of_this_program) {
   const auto steps = read_calculix_displacements(printed, ring.nodes());
   ASSERT_EQ(steps.size(), 1u);
 
-  std::vector<RingLoad> loads;
+  std::vector<FieldLoad> loads;
   for (const FunctionalForce& force : state.forces)
     loads.push_back(
         {&plan.functionals[static_cast<std::size_t>(force.functional)], force.sector, force.force_n});
