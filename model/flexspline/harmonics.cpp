@@ -63,6 +63,8 @@ HarmonicSolver::HarmonicSolver(const SectorMesh& mesh, const Material& material,
         odd(p, q) = sign(p) > 0.0 ? back - across : across - back;
       }
     }
+  if (unevenness > 1e-7 * scale && unevenness < 1e-4 * scale) // rounding; an uneven mesh shows more
+    throw NotPositiveStiffness(fmt::format("rounding makes the sector uneven by {:.1e}", unevenness / scale));
   if (unevenness > 1e-7 * scale)
     throw std::logic_error(fmt::format("the sector is not its own mirror image (relative difference {:.1e})",
                                        unevenness / scale));
