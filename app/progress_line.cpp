@@ -20,7 +20,7 @@ ProgressLine::~ProgressLine() {
     std::fputs("\r\033[K", stderr);
 }
 
-void ProgressLine::show(const Progress& progress, std::optional<double> seconds_left) {
+void ProgressLine::show(const SearchProgress& progress, std::optional<double> seconds_left) {
   using namespace std::chrono_literals;
   const auto now = Clock::now();
   if (now - last_ < (terminal_ ? Clock::duration(100ms) : Clock::duration(30s)))

@@ -18,7 +18,7 @@ public:
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   /// One thread at a time. `seconds_left`: until a time limit.
-  void show(const Progress& progress, std::optional<double> seconds_left);
+  void show(const SearchProgress& progress, std::optional<double> seconds_left);
 
 private:
   using Clock = std::chrono::steady_clock;

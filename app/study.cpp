@@ -40,7 +40,7 @@ ExitCode run(const StudyOptions& options) {
   catch_stop_signals();
   const StudyFile study = load_study(options.file, options.reduced, study_vocabulary());
   const ResultFolder folder(options.out.empty() ? default_result_folder(study)
-                                               : std::filesystem::path(options.out));
+                                                : std::filesystem::path(options.out));
   folder.write_plan(study);
 
   const auto responses = gear_responses();
@@ -50,7 +50,7 @@ ExitCode run(const StudyOptions& options) {
       study, {.threads = options.threads,
               .disk_cache = !options.no_cache,
               .stop = stop,
-              .progress = [&](const Progress& progress) { line->show(progress, stop.seconds_left()); },
+              .progress = [&](const SearchProgress& progress) { line->show(progress, stop.seconds_left()); },
               .warn = [](const std::string& sentence) { report(sentence); }});
   line.reset();
   if (!report_now) {

@@ -18,22 +18,23 @@ double dot(const Vector& a, const Vector& b) {
 
 class Sampler {
 public:
-  Sampler(const Problem& problem, const Point& from, const std::function<Point(std::span<const double>)>& ask)
+  Sampler(const Problem& problem, const SearchPoint& from,
+          const std::function<SearchPoint(std::span<const double>)>& ask)
       : from_(from), ask_(ask), upper_(problem.design().scaled_upper()) {}
 
   /// Moves by shares of the ranges, inside the bounds.
-  Point at(const Vector& centre, const Vector& share) {
+  SearchPoint at(const Vector& centre, const Vector& share) {
     Vector y(centre.size());
     for (std::size_t i = 0; i < y.size(); ++i)
       y[i] = std::clamp(centre[i] + share[i] * upper_[i], 0.0, upper_[i]);
-    Point point = ask_(y);
+    SearchPoint point = ask_(y);
     if (better(point, best_ ? *best_ : from_))
       best_ = point;
     return point;
   }
 
   /// The improvement function's largest piece: 0 the objective, k + 1 limit k.
-  std::size_t piece(const Point& point) const {
+  std::size_t piece(const SearchPoint& point) const {
     std::size_t largest = 0;
     double value = point.objective - from_.objective;
     for (std::size_t k = 0; k < point.constraint.size(); ++k) {
@@ -46,14 +47,14 @@ public:
   }
 
   /// Slopes by shares of the ranges, towards the middle of the box.
-  std::optional<Vector> slopes(const Point& at_point) {
+  std::optional<Vector> slopes(const SearchPoint& at_point) {
     const std::size_t n = upper_.size(), k = piece(at_point);
-    const auto value = [k](const Point& p) { return k == 0 ? p.objective : p.constraint[k - 1]; };
+    const auto value = [k](const SearchPoint& p) { return k == 0 ? p.objective : p.constraint[k - 1]; };
     Vector result(n);
     for (std::size_t i = 0; i < n; ++i) {
       Vector share(n, 0.0);
       share[i] = at_point.y[i] > 0.5 * upper_[i] ? -step : step;
-      const Point next = at(at_point.y, share);
+      const SearchPoint next = at(at_point.y, share);
       if (!next.ok)
         return std::nullopt;
       result[i] = (value(next) - value(at_point)) / share[i];
@@ -66,14 +67,14 @@ public:
     return result;
   }
 
-  const std::optional<Point>& best() const { return best_; }
+  const std::optional<SearchPoint>& best() const { return best_; }
 
 private:
   static constexpr double step = 1e-6; ///< against slopes of 1 and rounding of 1e-12
-  const Point& from_;
-  const std::function<Point(std::span<const double>)>& ask_;
+  const SearchPoint& from_;
+  const std::function<SearchPoint(std::span<const double>)>& ask_;
   Vector upper_;
-  std::optional<Point> best_;
+  std::optional<SearchPoint> best_;
 };
 
 } // namespace
@@ -97,9 +98,9 @@ std::vector<double> shortest_in_hull(const std::vector<std::vector<double>>& vec
   return v;
 }
 
-std::optional<Point> find_descent(const Problem& problem, const Point& from, double radius,
-                                  std::uint64_t seed,
-                                  const std::function<Point(std::span<const double>)>& ask) {
+std::optional<SearchPoint> find_descent(const Problem& problem, const SearchPoint& from, double radius,
+                                        std::uint64_t seed,
+                                        const std::function<SearchPoint(std::span<const double>)>& ask) {
   const std::size_t n = from.y.size();
   Sampler sampler(problem, from, ask);
   std::vector<Vector> slopes;
@@ -107,7 +108,7 @@ std::optional<Point> find_descent(const Problem& problem, const Point& from, dou
     Vector share(n);
     for (std::size_t i = 0; i < n; ++i)
       share[i] = radius * (2.0 * counter_random(seed, k, i) - 1.0);
-    const Point sample = sampler.at(from.y, share);
+    const SearchPoint sample = sampler.at(from.y, share);
     if (!sample.ok)
       continue;
     if (auto s = sampler.slopes(sample))

@@ -20,9 +20,9 @@ namespace strainwave {
 
 /// The best point better than `from` that was met while looking within `radius` (share of the coordinates'
 /// ranges), if any. Asks for about (n + 2)(n + 1) points.
-std::optional<Point> find_descent(const Problem& problem, const Point& from, double radius,
-                                  std::uint64_t seed,
-                                  const std::function<Point(std::span<const double>)>& ask);
+std::optional<SearchPoint> find_descent(const Problem& problem, const SearchPoint& from, double radius,
+                                        std::uint64_t seed,
+                                        const std::function<SearchPoint(std::span<const double>)>& ask);
 
 /// The shortest vector in the convex hull of `vectors` (Frank and Wolfe with exact steps).
 std::vector<double> shortest_in_hull(const std::vector<std::vector<double>>& vectors);

@@ -5,7 +5,7 @@
 
 namespace strainwave {
 
-Design::Design(std::vector<DesignVariable> variables) : variables_(std::move(variables)) {
+DesignSpace::DesignSpace(std::vector<DesignVariable> variables) : variables_(std::move(variables)) {
   for (DesignVariable& v : variables_) {
     const std::string path = v.path.path();
     if (!(v.lower < v.upper) || !std::isfinite(v.upper - v.lower))
@@ -21,21 +21,21 @@ Design::Design(std::vector<DesignVariable> variables) : variables_(std::move(var
   }
 }
 
-std::vector<double> Design::start() const {
+std::vector<double> DesignSpace::start() const {
   std::vector<double> x;
   for (const DesignVariable& v : variables_)
     x.push_back(v.start);
   return x;
 }
 
-std::vector<double> Design::scaled(std::span<const double> x) const {
+std::vector<double> DesignSpace::scaled(std::span<const double> x) const {
   std::vector<double> y(size());
   for (std::size_t i = 0; i < size(); ++i)
     y[i] = (x[i] - variables_[i].lower) / variables_[i].scale;
   return y;
 }
 
-std::vector<double> Design::unscaled(std::span<const double> y) const {
+std::vector<double> DesignSpace::unscaled(std::span<const double> y) const {
   std::vector<double> x(size());
   for (std::size_t i = 0; i < size(); ++i) {
     const DesignVariable& v = variables_[i];
@@ -45,14 +45,14 @@ std::vector<double> Design::unscaled(std::span<const double> y) const {
   return x;
 }
 
-std::vector<double> Design::scaled_upper() const {
+std::vector<double> DesignSpace::scaled_upper() const {
   std::vector<double> y;
   for (const DesignVariable& v : variables_)
     y.push_back((v.upper - v.lower) / v.scale);
   return y;
 }
 
-Gear Design::apply(const Gear& base, std::span<const double> x) const {
+Gear DesignSpace::apply(const Gear& base, std::span<const double> x) const {
   Gear gear = base;
   for (std::size_t i = 0; i < size(); ++i) {
     variables_[i].path.set(gear, x[i]);
@@ -62,7 +62,7 @@ Gear Design::apply(const Gear& base, std::span<const double> x) const {
   return gear;
 }
 
-std::vector<double> Design::read(const Gear& gear) const {
+std::vector<double> DesignSpace::read(const Gear& gear) const {
   std::vector<double> x;
   for (const DesignVariable& v : variables_)
     x.push_back(v.path.get(gear));

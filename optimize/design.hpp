@@ -29,10 +29,10 @@ struct DesignVariable {
   std::vector<LinkedNumber> links;
 };
 
-class Design {
+class DesignSpace {
 public:
   /// Throws FieldError where bounds cross, a start lies outside them, or a scale is negative.
-  explicit Design(std::vector<DesignVariable> variables);
+  explicit DesignSpace(std::vector<DesignVariable> variables);
 
   std::size_t size() const { return variables_.size(); }
   std::span<const DesignVariable> variables() const { return variables_; }

@@ -33,6 +33,8 @@ public:
   /// An exception of the inner evaluator reaches the thread that made the evaluation; others that wait try
   /// again.
   Evaluation evaluate(std::span<const double> x) override;
+  std::optional<std::size_t> pieces_of() const override { return inner_.pieces_of(); }
+  std::vector<double> piece_gradient(std::span<const double> x) override { return inner_.piece_gradient(x); }
   std::vector<double> gradient(std::span<const double> x) override { return inner_.gradient(x); }
 
   EvaluationCounts counts() const;

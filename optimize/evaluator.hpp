@@ -7,6 +7,7 @@
 
 #include "optimize/response.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct Evaluation {
   std::string status;         ///< "ok", or the name of what went wrong
   std::string message;        ///< one sentence; empty when ok
   std::vector<double> values; ///< by response; NaN for what the loads do not give; empty unless ok
+  std::vector<double> pieces; ///< of one response, which is the largest of them; see Evaluator::pieces_of()
   Certificate certificate;    ///< of the forward model; all zero for evaluators without one
 };
 
@@ -34,6 +36,14 @@ public:
   /// ∂value/∂x, response by response, variables inside: [r · n + i]. Empty where no exact gradient is known;
   /// the caller then takes differences.
   virtual std::vector<double> gradient(std::span<const double> x) {
+    (void)x;
+    return {};
+  }
+  /// The response that is the largest of smooth pieces (tooth forces), whose kinks are therefore known. The
+  /// pieces of all evaluations stand in the same order.
+  virtual std::optional<std::size_t> pieces_of() const { return std::nullopt; }
+  /// ∂piece/∂x, piece by piece, like gradient().
+  virtual std::vector<double> piece_gradient(std::span<const double> x) {
     (void)x;
     return {};
   }

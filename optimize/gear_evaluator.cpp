@@ -13,9 +13,27 @@ Evaluation failed(std::string status, std::string message) {
   return evaluation;
 }
 
+/// By load, phase and tooth number, which runs from −z/2 − 1 to z/2 + 1 whether the tooth reaches the
+/// circular spline or not.
+std::vector<double> tooth_forces(const Gear& gear, const std::vector<ForwardResult>& results) {
+  const int half = gear.flexspline.teeth / 2 + 1;
+  std::vector<double> forces;
+  for (const ForwardResult& result : results) {
+    for (const LoadResult& load : result.load) {
+      for (const PhaseForces& phase : load.phases) {
+        const std::size_t first = forces.size();
+        forces.resize(first + static_cast<std::size_t>(2 * half + 1), 0.0);
+        for (std::size_t i = 0; i < phase.tooth.size(); ++i)
+          forces[first + static_cast<std::size_t>(phase.tooth[i] + half)] = phase.force_n[i];
+      }
+    }
+  }
+  return forces;
+}
+
 } // namespace
 
-GearEvaluator::GearEvaluator(Gear base, Design design, std::vector<Load> loads, ForwardOptions options,
+GearEvaluator::GearEvaluator(Gear base, DesignSpace design, std::vector<Load> loads, ForwardOptions options,
                              std::function<void(const std::string&)> warn)
     : base_(std::move(base)), design_(std::move(design)), loads_(std::move(loads)), options_(options),
       warn_(std::move(warn)) {}
@@ -32,6 +50,10 @@ std::unique_ptr<ForwardModel> GearEvaluator::borrow() {
 void GearEvaluator::give_back(std::unique_ptr<ForwardModel> model) {
   const std::lock_guard lock(mutex_);
   idle_.push_back(std::move(model));
+}
+
+std::optional<std::size_t> GearEvaluator::pieces_of() const {
+  return find_response(gear_responses(), "peak_force_n");
 }
 
 Evaluation GearEvaluator::evaluate(std::span<const double> x) {
@@ -61,6 +83,7 @@ Evaluation GearEvaluator::evaluate_gear(Gear gear) {
   evaluation.ok = true;
   evaluation.status = "ok";
   evaluation.values = read_responses(results);
+  evaluation.pieces = tooth_forces(gear, results);
   for (const ForwardResult& result : results)
     take_worse(evaluation.certificate, *result.certificate);
   return evaluation;

@@ -21,15 +21,17 @@ class GearEvaluator : public Evaluator {
 public:
   /// Each of `loads` replaces the load of `base`; rated torque included. `warn` hears sentences for people (a
   /// damaged cache file), from any thread.
-  GearEvaluator(Gear base, Design design, std::vector<Load> loads, ForwardOptions options = {},
+  GearEvaluator(Gear base, DesignSpace design, std::vector<Load> loads, ForwardOptions options = {},
                 std::function<void(const std::string&)> warn = {});
 
   std::span<const Response> responses() const override { return gear_responses(); }
   Evaluation evaluate(std::span<const double> x) override;
+  /// peak_force_n: the forces of all teeth, tooth by tooth in every phase of every load.
+  std::optional<std::size_t> pieces_of() const override;
   /// The unmodified gear.
   Evaluation evaluate_base() { return evaluate_gear(base_); }
 
-  const Design& design() const { return design_; }
+  const DesignSpace& design() const { return design_; }
   /// The gear itself, for files and reports.
   Gear gear(std::span<const double> x) const { return design_.apply(base_, x); }
 
@@ -39,7 +41,7 @@ private:
   void give_back(std::unique_ptr<ForwardModel> model);
 
   Gear base_;
-  Design design_;
+  DesignSpace design_;
   std::vector<Load> loads_;
   ForwardOptions options_;
   std::function<void(const std::string&)> warn_;

@@ -1,5 +1,6 @@
 #include "optimize/global_then_polish.hpp"
 
+#include "optimize/ipopt_search.hpp"
 #include "optimize/nlopt_search.hpp"
 #include "optimize/parallel.hpp"
 #include "optimize/start_points.hpp"
@@ -58,24 +59,40 @@ SearchResult survey(const Problem& problem, const OptimiseSettings& settings, st
   return all;
 }
 
+/// Down from one point.
+SearchResult polish(const Problem& problem, const SearchPoint& from, const SearchSettings& settings,
+                    std::size_t budget, Monitor& monitor) {
+  SearchResult found;
+  if (ipopt_available()) {
+    SearchSettings share = settings;
+    share.budget = budget / 2;
+    found = search_ipopt(problem, from.y, share, monitor);
+  }
+  if (!found.best || better(from, *found.best))
+    found.best = from;
+  if (found.end != SearchEnd::stopped)
+    (void)confirm(problem, found, settings, budget - found.asked, monitor);
+  return found;
+}
+
 } // namespace
 
-std::vector<Point> best_apart(const Problem& problem, std::vector<Point> points, std::size_t count,
-                              double separation) {
+std::vector<SearchPoint> best_apart(const Problem& problem, std::vector<SearchPoint> points,
+                                    std::size_t count, double separation) {
   const std::vector<double> range = problem.design().scaled_upper();
-  const auto distance = [&](const Point& a, const Point& b) {
+  const auto distance = [&](const SearchPoint& a, const SearchPoint& b) {
     double largest = 0.0;
     for (std::size_t i = 0; i < range.size(); ++i)
       largest = std::max(largest, std::abs(a.y[i] - b.y[i]) / range[i]);
     return largest;
   };
   std::stable_sort(points.begin(), points.end(), better);
-  std::vector<Point> chosen;
-  for (const Point& point : points) {
+  std::vector<SearchPoint> chosen;
+  for (const SearchPoint& point : points) {
     if (chosen.size() == count)
       break;
     if (std::all_of(chosen.begin(), chosen.end(),
-                    [&](const Point& c) { return distance(point, c) >= separation; }))
+                    [&](const SearchPoint& c) { return distance(point, c) >= separation; }))
       chosen.push_back(point);
   }
   return chosen;
@@ -89,17 +106,19 @@ SearchResult global_then_polish(const Problem& problem, const OptimiseSettings& 
   const std::size_t n = problem.design().size();
   const double separation =
       0.3 * std::pow(static_cast<double>(found.seen.size() + 1), -1.0 / static_cast<double>(n));
-  const auto valleys =
-      best_apart(problem, std::move(found.seen), std::max<std::size_t>(1, settings.starts), separation);
-  found.seen.clear();
-  if (valleys.empty())
-    return found;
-  std::vector<SearchResult> polished(valleys.size());
-  const std::size_t share = (budget - found.asked) / valleys.size();
-  parallel_for(valleys.size(), settings.threads, [&](std::size_t k) {
-    polished[k].best = valleys[k];
-    (void)confirm(problem, polished[k], settings.search, share, monitor);
+  const auto valleys = best_apart(problem, found.seen, std::max<std::size_t>(1, settings.starts), separation);
+  if (!valleys.empty())
+    add(found, polish_all(problem, valleys, settings, budget - found.asked, monitor));
+  return found;
+}
+
+SearchResult polish_all(const Problem& problem, const std::vector<SearchPoint>& from,
+                        const OptimiseSettings& settings, std::size_t budget, Monitor& monitor) {
+  std::vector<SearchResult> polished(from.size());
+  parallel_for(from.size(), settings.threads, [&](std::size_t k) {
+    polished[k] = polish(problem, from[k], settings.search, budget / from.size(), monitor);
   });
+  SearchResult found;
   for (SearchResult& result : polished)
     add(found, std::move(result));
   return found;

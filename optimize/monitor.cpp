@@ -2,12 +2,13 @@
 
 namespace strainwave {
 
-Monitor::Monitor(std::size_t budget, std::function<bool()> stop, std::function<void(const Progress&)> report)
+Monitor::Monitor(std::size_t budget, std::function<bool()> stop,
+                 std::function<void(const SearchProgress&)> report)
     : stop_(std::move(stop)), report_(std::move(report)) {
   progress_.budget = budget;
 }
 
-void Monitor::note(const Problem& problem, const Point& point) {
+void Monitor::note(const Problem& problem, const SearchPoint& point) {
   const std::lock_guard lock(mutex_);
   ++progress_.asked;
   if (!best_ || better(point, *best_))

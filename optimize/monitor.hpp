@@ -9,7 +9,7 @@
 
 namespace strainwave {
 
-struct Progress {
+struct SearchProgress {
   std::size_t asked = 0; ///< points that searches have asked for
   std::size_t budget = 0;
   bool feasible = false;           ///< a feasible point is known
@@ -21,17 +21,17 @@ class Monitor {
 public:
   /// `stop` is asked before every evaluation, `report` told after every one, never by two threads at once.
   explicit Monitor(std::size_t budget = 0, std::function<bool()> stop = {},
-                   std::function<void(const Progress&)> report = {});
+                   std::function<void(const SearchProgress&)> report = {});
 
   bool stop_requested() const { return stop_ && stop_(); }
-  void note(const Problem& problem, const Point& point);
+  void note(const Problem& problem, const SearchPoint& point);
 
 private:
   std::function<bool()> stop_;
-  std::function<void(const Progress&)> report_;
+  std::function<void(const SearchProgress&)> report_;
   std::mutex mutex_;
-  Progress progress_;
-  std::optional<Point> best_;
+  SearchProgress progress_;
+  std::optional<SearchPoint> best_;
 };
 
 } // namespace strainwave

@@ -1,6 +1,7 @@
 #include "optimize/optimise.hpp"
 
 #include "optimize/global_then_polish.hpp"
+#include "optimize/ipopt_search.hpp"
 #include "optimize/nlopt_search.hpp"
 #include "optimize/parallel.hpp"
 #include "optimize/start_points.hpp"
@@ -17,8 +18,10 @@ SearchResult multi_start(const Problem& problem, const OptimiseSettings& setting
   share.budget = std::max<std::size_t>(1, settings.search.budget / starts);
   const auto points = start_points(problem.design(), starts, settings.search.seed);
   std::vector<SearchResult> results(starts);
-  parallel_for(starts, settings.threads,
-               [&](std::size_t k) { results[k] = search_nlopt(problem, points[k], share, monitor); });
+  parallel_for(starts, settings.threads, [&](std::size_t k) {
+    results[k] = settings.search.method == ipopt_method ? search_ipopt(problem, points[k], share, monitor)
+                                                        : search_nlopt(problem, points[k], share, monitor);
+  });
 
   SearchResult found = results.front();
   bool stopped = found.end == SearchEnd::stopped;
@@ -26,8 +29,11 @@ SearchResult multi_start(const Problem& problem, const OptimiseSettings& setting
     const SearchResult& result = results[k];
     const std::size_t asked = found.asked + result.asked;
     const std::size_t failed = found.failed + result.failed;
+    std::vector<SearchPoint> seen = std::move(found.seen);
+    seen.insert(seen.end(), result.seen.begin(), result.seen.end());
     if (result.best && (!found.best || better(*result.best, *found.best)))
       found = result;
+    found.seen = std::move(seen);
     stopped = stopped || result.end == SearchEnd::stopped;
     found.asked = asked;
     found.failed = failed;
@@ -44,6 +50,8 @@ std::span<const std::string_view> method_names() {
     std::vector<std::string_view> all{global_method};
     const auto nlopt = nlopt_method_names();
     all.insert(all.end(), nlopt.begin(), nlopt.end());
+    if (ipopt_available())
+      all.push_back(ipopt_method);
     return all;
   }();
   return names;
@@ -56,7 +64,6 @@ OptimiseResult optimise(const Problem& problem, const OptimiseSettings& settings
   search.search.budget = std::max<std::size_t>(1, 3 * budget / 4);
   SearchResult found = settings.search.method == global_method ? global_then_polish(problem, search, monitor)
                                                                : multi_start(problem, search, monitor);
-  found.seen.clear();
   const std::size_t left = budget > found.asked ? budget - found.asked : 0;
   const bool at_rest = found.end != SearchEnd::stopped && found.end != SearchEnd::all_failed;
   const bool confirmed = at_rest && confirm(problem, found, settings.search, left, monitor);

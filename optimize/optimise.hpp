@@ -14,7 +14,7 @@ namespace strainwave {
 /// Survey and polish (global_then_polish.hpp), the default of studies.
 inline constexpr std::string_view global_method = "global_then_polish";
 
-/// Everything that SearchSettings::method may be here: global_method and the methods of NLopt.
+/// Everything that SearchSettings::method may be here: global_method, the methods of NLopt, and Ipopt.
 std::span<const std::string_view> method_names();
 
 struct OptimiseSettings {

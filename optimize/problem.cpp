@@ -30,7 +30,7 @@ double positive_baseline(const std::string& name, double baseline) {
 
 } // namespace
 
-bool better(const Point& a, const Point& b) {
+bool better(const SearchPoint& a, const SearchPoint& b) {
   if (a.ok != b.ok)
     return a.ok;
   if (!a.ok)
@@ -40,12 +40,11 @@ bool better(const Point& a, const Point& b) {
   return feasible(a) ? a.objective < b.objective : a.violation < b.violation;
 }
 
-Problem::Problem(Design design, Evaluator& evaluator, Objective objective,
+Problem::Problem(DesignSpace design, Evaluator& evaluator, Objective objective,
                  std::span<const Constraint> constraints, const Evaluation& baseline)
-    : design_(std::move(design)), evaluator_(&evaluator), maximise_(objective.maximise) {
+    : design_(std::move(design)), evaluator_(&evaluator), baseline_(baseline.values) {
   const auto responses = evaluator.responses();
-  objective_ = response_index(responses, objective.output);
-  objective_scale_ = scale_of(0.0, baseline.values[objective_]);
+  *this = aiming_at(objective);
   for (const Constraint& constraint : constraints) {
     const std::size_t index = response_index(responses, constraint.output);
     const double value = baseline.values[index];
@@ -63,12 +62,12 @@ Problem::Problem(Design design, Evaluator& evaluator, Objective objective,
   }
 }
 
-Point Problem::at(std::span<const double> y) const {
+SearchPoint Problem::at(std::span<const double> y) const {
   return read(y, evaluator_->evaluate(design_.unscaled(y)));
 }
 
-Point Problem::read(std::span<const double> y, const Evaluation& evaluation) const {
-  Point point;
+SearchPoint Problem::read(std::span<const double> y, const Evaluation& evaluation) const {
+  SearchPoint point;
   point.y.assign(y.begin(), y.end());
   if (!evaluation.ok)
     return point;
@@ -107,8 +106,26 @@ std::optional<Slopes> Problem::exact_slopes(std::span<const double> y) const {
   return slopes;
 }
 
-double Problem::unscaled_objective(const Point& point) const {
+double Problem::unscaled_objective(const SearchPoint& point) const {
   return (maximise_ ? -1.0 : 1.0) * point.objective * objective_scale_;
+}
+
+Problem Problem::aiming_at(const Objective& objective) const {
+  Problem other = *this;
+  other.objective_ = response_index(evaluator_->responses(), objective.output);
+  other.objective_scale_ = scale_of(0.0, baseline_[other.objective_]);
+  other.maximise_ = objective.maximise;
+  return other;
+}
+
+Problem Problem::limited(const Objective& response, double bound) const {
+  Problem other = *this;
+  const std::size_t index = response_index(evaluator_->responses(), response.output);
+  other.limits_.push_back({.response = index,
+                           .upper = !response.maximise,
+                           .bound = bound,
+                           .scale = scale_of(bound, baseline_[index])});
+  return other;
 }
 
 Problem Problem::with(Evaluator& evaluator) const {

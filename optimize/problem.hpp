@@ -44,7 +44,7 @@ struct Limit {
 struct Slopes;
 
 /// A design as a search sees it.
-struct Point {
+struct SearchPoint {
   std::vector<double> y;          ///< scaled coordinates
   bool ok = false;                ///< false: the evaluation failed, and the rest means nothing
   double objective = 0.0;         ///< f, scaled; smaller is better
@@ -55,43 +55,49 @@ struct Point {
 /// Scaled excess that still counts as met.
 inline constexpr double feasibility_tolerance = 1e-6;
 
-inline bool feasible(const Point& point) {
+inline bool feasible(const SearchPoint& point) {
   return point.ok && point.violation <= feasibility_tolerance;
 }
 /// Feasible before infeasible before failed; then by objective, or by violation.
-bool better(const Point& a, const Point& b);
+bool better(const SearchPoint& a, const SearchPoint& b);
 
 class Problem {
 public:
   /// Throws FieldError for a name that the evaluator does not give, and for a ratio to a baseline of 0 or
   /// below. `baseline` holds the values of the unmodified design and must be ok.
-  Problem(Design design, Evaluator& evaluator, Objective objective, std::span<const Constraint> constraints,
-          const Evaluation& baseline);
+  Problem(DesignSpace design, Evaluator& evaluator, Objective objective,
+          std::span<const Constraint> constraints, const Evaluation& baseline);
 
-  const Design& design() const { return design_; }
+  const DesignSpace& design() const { return design_; }
   Evaluator& evaluator() const { return *evaluator_; }
   std::span<const Limit> limits() const { return limits_; }
   std::size_t objective_response() const { return objective_; }
   bool maximise() const { return maximise_; }
+  double objective_scale() const { return objective_scale_; }
 
   /// Thread-safe. A value that is not finite counts as a failed evaluation.
-  Point at(std::span<const double> y) const;
-  Point read(std::span<const double> y, const Evaluation& evaluation) const;
+  SearchPoint at(std::span<const double> y) const;
+  SearchPoint read(std::span<const double> y, const Evaluation& evaluation) const;
   /// First derivatives in scaled coordinates where the evaluator knows its gradient; see slopes.hpp.
   std::optional<Slopes> exact_slopes(std::span<const double> y) const;
   /// The objective in the unit of its response.
-  double unscaled_objective(const Point& point) const;
+  double unscaled_objective(const SearchPoint& point) const;
 
+  /// The same limits, another objective. Throws FieldError for a name that the evaluator does not give.
+  Problem aiming_at(const Objective& objective) const;
+  /// One more limit: the response at most `bound`, or at least where more of it is wanted.
+  Problem limited(const Objective& response, double bound) const;
   /// The same problem asked of another evaluator with the same responses.
   Problem with(Evaluator& evaluator) const;
 
 private:
-  Design design_;
+  DesignSpace design_;
   Evaluator* evaluator_;
   std::size_t objective_ = 0;
   bool maximise_ = false;
   double objective_scale_ = 1.0;
   std::vector<Limit> limits_;
+  std::vector<double> baseline_;
 };
 
 } // namespace strainwave

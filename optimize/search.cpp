@@ -6,13 +6,15 @@
 
 namespace strainwave {
 
-Point Recorder::evaluate(std::span<const double> y) {
+SearchPoint Recorder::evaluate(std::span<const double> y, Evaluation* whole) {
   if (monitor_.stop_requested())
     throw Ended{SearchEnd::stopped};
   if (result_.asked >= budget_)
     throw Ended{SearchEnd::budget};
   const Evaluation evaluation = problem_.evaluator().evaluate(problem_.design().unscaled(y));
-  Point point = problem_.read(y, evaluation);
+  SearchPoint point = problem_.read(y, evaluation);
+  if (whole)
+    *whole = evaluation;
   ++result_.asked;
   monitor_.note(problem_, point);
   if (!point.ok) {
@@ -54,7 +56,7 @@ const Recorder::Told& Recorder::ask_slopes(std::span<const double> y) {
   return told_;
 }
 
-void Recorder::tell(const Point& point) {
+void Recorder::tell(const SearchPoint& point) {
   const std::size_t limits = problem_.limits().size();
   told_.ok = point.ok;
   if (!point.ok) {

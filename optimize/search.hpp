@@ -30,11 +30,11 @@ struct SearchSettings {
 
 struct SearchResult {
   SearchEnd end = SearchEnd::tolerance;
-  std::optional<Point> best; ///< feasible if any was; else the least violation; nothing if all failed
+  std::optional<SearchPoint> best; ///< feasible if any was; else the least violation; nothing if all failed
   std::size_t asked = 0;
   std::size_t failed = 0;
-  std::string reason;      ///< of the last failed evaluation
-  std::vector<Point> seen; ///< every point that did not fail, in the order of asking
+  std::string reason;            ///< of the last failed evaluation
+  std::vector<SearchPoint> seen; ///< every point that did not fail, in the order of asking
 };
 
 /// After so many failed evaluations without a single good one a search ends with all_failed.
@@ -70,17 +70,17 @@ public:
   /// With first derivatives. Where they are not to be had, those of the last point that had some.
   const Told& ask_slopes(std::span<const double> y);
   /// The point itself, whatever became of it; for those who can deal with failed ones.
-  Point evaluate(std::span<const double> y);
+  SearchPoint evaluate(std::span<const double> y, Evaluation* whole = nullptr);
   const SearchResult& result() const { return result_; }
 
 private:
-  void tell(const Point& point);
+  void tell(const SearchPoint& point);
 
   const Problem& problem_;
   std::size_t budget_;
   Monitor& monitor_;
   SearchResult result_;
-  Point last_;
+  SearchPoint last_;
   bool slopes_known_ = false; ///< at last_
   Told told_;
   double best_objective_ = 0.0, worst_objective_ = 0.0;

@@ -6,9 +6,8 @@ namespace strainwave {
 
 namespace {
 
-constexpr double difference_step = 1e-5;
-
-void set_column(Slopes& slopes, std::size_t i, const Point& low, const Point& high, double width) {
+void set_column(Slopes& slopes, std::size_t i, const SearchPoint& low, const SearchPoint& high,
+                double width) {
   const std::size_t n = slopes.objective.size();
   slopes.objective[i] = (high.objective - low.objective) / width;
   for (std::size_t k = 0; k < high.constraint.size(); ++k)
@@ -17,8 +16,8 @@ void set_column(Slopes& slopes, std::size_t i, const Point& low, const Point& hi
 
 } // namespace
 
-Slopes slopes_at(const Problem& problem, const Point& at,
-                 const std::function<Point(std::span<const double>)>& ask) {
+Slopes slopes_at(const Problem& problem, const SearchPoint& at,
+                 const std::function<SearchPoint(std::span<const double>)>& ask) {
   if (!at.ok)
     return {};
   if (auto exact = problem.exact_slopes(at.y))
@@ -34,8 +33,8 @@ Slopes slopes_at(const Problem& problem, const Point& at,
       return ask(y);
     };
     const double lower_y = std::max(0.0, at.y[i] - h), upper_y = std::min(upper[i], at.y[i] + h);
-    const Point low = lower_y < at.y[i] ? neighbour(lower_y) : at;
-    const Point high = upper_y > at.y[i] ? neighbour(upper_y) : at;
+    const SearchPoint low = lower_y < at.y[i] ? neighbour(lower_y) : at;
+    const SearchPoint high = upper_y > at.y[i] ? neighbour(upper_y) : at;
     if (low.ok && high.ok)
       set_column(slopes, i, low, high, upper_y - lower_y);
     else if (low.ok && lower_y < at.y[i])

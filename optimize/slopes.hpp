@@ -21,8 +21,10 @@ struct Slopes {
   std::vector<double> constraint; ///< limit by limit, coordinates inside: [k · n + i]
 };
 
+inline constexpr double difference_step = 1e-5;
+
 /// `ask` gives the points that differences need.
-Slopes slopes_at(const Problem& problem, const Point& at,
-                 const std::function<Point(std::span<const double>)>& ask);
+Slopes slopes_at(const Problem& problem, const SearchPoint& at,
+                 const std::function<SearchPoint(std::span<const double>)>& ask);
 
 } // namespace strainwave

@@ -18,7 +18,8 @@ double generalised_golden_ratio(std::size_t d) {
 
 } // namespace
 
-std::vector<std::vector<double>> start_points(const Design& design, std::size_t count, std::uint64_t seed) {
+std::vector<std::vector<double>> start_points(const DesignSpace& design, std::size_t count,
+                                              std::uint64_t seed) {
   std::vector<std::vector<double>> points;
   if (count == 0)
     return points;

@@ -58,6 +58,7 @@ namespace {
 void take_over(SearchResult& found, const SearchResult& again) {
   found.asked += again.asked;
   found.failed += again.failed;
+  found.seen.insert(found.seen.end(), again.seen.begin(), again.seen.end());
   if (again.best && better(*again.best, *found.best))
     found.best = again.best;
 }
@@ -76,7 +77,7 @@ bool look_around(const Problem& problem, SearchResult& found, const SearchSettin
     return false;
   Recorder recorder(problem, budget - simplex.asked, monitor);
   try {
-    const Point from = *found.best;
+    const SearchPoint from = *found.best;
     for (const double radius : {confirmation_step, 0.1 * confirmation_step})
       (void)find_descent(problem, from, radius, settings.seed,
                          [&](std::span<const double> y) { return recorder.evaluate(y); });
@@ -94,7 +95,7 @@ bool confirm(const Problem& problem, SearchResult& found, const SearchSettings& 
              Monitor& monitor) {
   const std::size_t limit = found.asked + budget;
   while (found.best) {
-    const Point before = *found.best;
+    const SearchPoint before = *found.best;
     if (!look_around(problem, found, settings, limit - found.asked, monitor))
       return false;
     const bool same_kind = feasible(before) == feasible(*found.best);

@@ -24,7 +24,7 @@ std::string_view verdict_name(Verdict verdict);
 struct Judgement {
   Verdict verdict = Verdict::stalled;
   std::string message;             ///< one sentence
-  std::optional<Point> best;       ///< as evaluated fresh
+  std::optional<SearchPoint> best; ///< as evaluated fresh
   std::optional<Evaluation> fresh; ///< the reported optimum, evaluated again from nothing
 };
 

@@ -1,5 +1,7 @@
 #include "studies/optimisation.hpp"
 
+#include "optimize/pareto.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,7 +52,7 @@ std::vector<LimitReport> limits_of(const StudyFile& study, const Problem& proble
   return reports;
 }
 
-std::vector<InputChange> inputs_of(const Design& design, const Gear& before, const Gear& after) {
+std::vector<InputChange> inputs_of(const DesignSpace& design, const Gear& before, const Gear& after) {
   std::vector<InputChange> inputs;
   const auto add = [&](const NumberPath& path, std::string link) {
     inputs.push_back({path.path(), path.field().unit, path.get(before), path.get(after), std::move(link)});
@@ -61,6 +63,46 @@ std::vector<InputChange> inputs_of(const Design& design, const Gear& before, con
     for (const LinkedNumber& link : v.links)
       add(link.path, fmt::format("{} · {}", shortest(link.ratio), v.path.path()));
   return inputs;
+}
+
+/// The gear of a judged design, and its numbers beside the unmodified ones.
+Gear gear_of(const OptimisationReport& report, const DesignSpace& design, const Judgement& judgement) {
+  if (!judgement.fresh || !judgement.fresh->ok)
+    return report.study.gear;
+  Gear gear = design.apply(report.study.gear, design.unscaled(judgement.best->y));
+  gear.name = report.study.gear.name + ", optimised";
+  return gear;
+}
+
+void report_best(OptimisationReport& report, const DesignSpace& design, const Judgement& judgement) {
+  report.verdict = judgement.verdict;
+  report.message = judgement.message;
+  const Gear gear = gear_of(report, design, judgement);
+  report.inputs = inputs_of(design, report.study.gear, gear);
+  if (!judgement.fresh || !judgement.fresh->ok)
+    return;
+  report.best = judgement.fresh;
+  report.best_gear = gear;
+}
+
+/// The verdict on a front is the worst of its points.
+void report_front(OptimisationReport& report, const DesignSpace& design,
+                  const std::vector<ParetoPoint>& front) {
+  report_best(report, design, front.front().judgement);
+  for (const ParetoPoint& point : front) {
+    const Judgement& j = point.judgement;
+    report.front.push_back({.bound = point.bound,
+                            .verdict = j.verdict,
+                            .message = j.message,
+                            .inputs = inputs_of(design, report.study.gear, gear_of(report, design, j)),
+                            .outputs = j.fresh && j.fresh->ok ? j.fresh : std::nullopt});
+    if (j.verdict > report.verdict) {
+      report.verdict = j.verdict;
+      report.message = j.message;
+    }
+  }
+  if (report.verdict == Verdict::converged)
+    report.message = "every point: " + report.message;
 }
 
 } // namespace
@@ -95,7 +137,7 @@ std::vector<Load> study_loads(const StudyFile& study) {
   return loads;
 }
 
-Design study_design(const StudyFile& study) {
+DesignSpace study_design(const StudyFile& study) {
   std::vector<DesignVariable> variables;
   for (const StudyVariable& v : study.variables) {
     const NumberPath path(v.path);
@@ -109,12 +151,12 @@ Design study_design(const StudyFile& study) {
       variable.links.push_back({NumberPath(v.link->path), v.link->ratio});
     variables.push_back(std::move(variable));
   }
-  return Design(std::move(variables));
+  return DesignSpace(std::move(variables));
 }
 
 Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
-  const Design design = study_design(study);
+  const DesignSpace design = study_design(study);
   const std::vector<Load> loads = study_loads(study);
   const ForwardOptions forward{.disk_cache = options.disk_cache, .threads = options.threads};
   GearEvaluator model(study.gear, design, loads, forward, options.warn);
@@ -131,25 +173,20 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
   report.limits = limits_of(study, problem);
   Monitor monitor(static_cast<std::size_t>(study.method.budget), options.stop, options.progress);
   GearEvaluator fresh(study.gear, design, loads, forward);
-  const OptimiseResult result = optimise(problem,
-                                         {.search = {.method = report.method,
-                                                     .budget = static_cast<std::size_t>(study.method.budget),
-                                                     .tolerance = study.method.tolerance,
-                                                     .seed = static_cast<std::uint64_t>(study.seed)},
-                                          .starts = static_cast<std::size_t>(study.method.starts),
-                                          .threads = options.threads},
-                                         fresh, monitor);
-  report.verdict = result.judgement.verdict;
-  report.message = result.judgement.message;
-  report.best_gear = study.gear;
-  if (result.judgement.fresh && result.judgement.fresh->ok) {
-    report.best = result.judgement.fresh;
-    report.best_gear = design.apply(study.gear, design.unscaled(result.judgement.best->y));
-    report.best_gear->name = study.gear.name + ", optimised";
+  const OptimiseSettings settings{.search = {.method = report.method,
+                                             .budget = static_cast<std::size_t>(study.method.budget),
+                                             .tolerance = study.method.tolerance,
+                                             .seed = static_cast<std::uint64_t>(study.seed)},
+                                  .starts = static_cast<std::size_t>(study.method.starts),
+                                  .threads = options.threads};
+  if (study.kind == StudyKind::pareto) {
+    const Objective second{study.pareto.output, study.pareto.goal == Goal::maximise};
+    const auto points = static_cast<std::size_t>(study.pareto.points);
+    const auto front = pareto_front(problem, second, {.each = settings, .points = points}, fresh, monitor);
+    report_front(report, design, front);
+  } else {
+    report_best(report, design, optimise(problem, settings, fresh, monitor).judgement);
   }
-  report.inputs = inputs_of(design, study.gear, *report.best_gear);
-  if (!report.best)
-    report.best_gear.reset();
   report.counts = store.counts();
   report.certificate_worst = store.worst_certificate();
   report.points = store.points();

@@ -1,5 +1,5 @@
 #pragma once
-// Runs a study of kind "optimize": from the file to a judged optimum beside the unmodified gear.
+// Runs a study of kind "optimize" or "pareto": from the file to judged optima beside the unmodified gear.
 
 #include "optimize/evaluation_store.hpp"
 #include "optimize/gear_evaluator.hpp"
@@ -17,7 +17,7 @@ struct RunOptions {
   int threads = 0; ///< 0: all cores
   bool disk_cache = true;
   std::function<bool()> stop;
-  std::function<void(const Progress&)> progress;
+  std::function<void(const SearchProgress&)> progress;
   std::function<void(const std::string&)> warn;
 };
 
@@ -35,6 +35,15 @@ struct LimitReport {
   std::string origin; ///< "0.95 × unmodified"; empty for a plain number
 };
 
+/// One design of a front.
+struct FrontPoint {
+  std::optional<double> bound; ///< of the second aim; nothing at the end where the objective alone counts
+  Verdict verdict = Verdict::stalled;
+  std::string message;
+  std::vector<InputChange> inputs;
+  std::optional<Evaluation> outputs;
+};
+
 struct OptimisationReport {
   StudyFile study;
   std::string method;
@@ -47,6 +56,7 @@ struct OptimisationReport {
   std::optional<Evaluation> best; ///< by a fresh evaluation; nothing if no design could be evaluated
   std::optional<Gear> best_gear;  ///< with the study's loads left as they are in the gear
   std::vector<LimitReport> limits;
+  std::vector<FrontPoint> front; ///< pareto; `best` is its first design then
   Certificate certificate_worst;
   std::vector<StoredPoint> points; ///< all evaluations, ascending in x, so that no number of threads shows
 };
@@ -56,7 +66,7 @@ StudyVocabulary study_vocabulary();
 
 /// The loads of a study: cases with the same phases and direction share one analysis.
 std::vector<Load> study_loads(const StudyFile& study);
-Design study_design(const StudyFile& study);
+DesignSpace study_design(const StudyFile& study);
 
 /// Throws FieldError where the study asks for what cannot be (a ratio to a baseline of 0). A baseline without
 /// a result, or one that interferes, is no baseline: Outcome's Failure.

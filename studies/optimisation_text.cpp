@@ -50,6 +50,43 @@ Json certificate_json(const Certificate& c) {
           {"equilibrium", c.equilibrium},         {"discretisation_estimate", c.discretisation_estimate}};
 }
 
+/// One line for each design: the two aims, the variables, the verdict.
+void front_table(const OptimisationReport& report, Out out) {
+  const std::string& first = report.study.objective.output;
+  const std::string& second = report.study.pareto.output;
+  fmt::format_to(out, "\n  Front: {} against {}\n  {:>14} {:>14}", first, second, first.substr(0, 14),
+                 second.substr(0, 14));
+  const std::size_t variables = report.study.variables.size();
+  for (std::size_t i = 0; i < variables; ++i)
+    fmt::format_to(out, " {:>12}", fmt::format("input {}", i + 1));
+  fmt::format_to(out, "  verdict\n");
+  const auto responses = gear_responses();
+  for (const FrontPoint& point : report.front) {
+    const auto aim = [&](const std::string& name) {
+      return point.outputs ? number_text(point.outputs->values[*find_response(responses, name)]) : "–";
+    };
+    fmt::format_to(out, "  {:>14} {:>14}", aim(first), aim(second));
+    for (std::size_t i = 0; i < variables; ++i)
+      fmt::format_to(out, " {:>12}", point.outputs ? number_text(point.inputs[i].best) : "–");
+    fmt::format_to(out, "  {}\n", verdict_name(point.verdict));
+  }
+}
+
+Json front_json(const OptimisationReport& report) {
+  Json front = Json::array();
+  for (const FrontPoint& point : report.front) {
+    Json inputs = Json::object();
+    for (const InputChange& input : point.inputs)
+      inputs[input.path] = input.best;
+    front.push_back({{"bound", point.bound ? Json(*point.bound) : Json(nullptr)},
+                     {"verdict", verdict_name(point.verdict)},
+                     {"message", point.message},
+                     {"inputs", point.outputs ? inputs : Json(nullptr)},
+                     {"outputs", point.outputs ? outputs_json(*point.outputs) : Json(nullptr)}});
+  }
+  return front;
+}
+
 } // namespace
 
 std::string optimisation_table(const OptimisationReport& report, const std::string& folder) {
@@ -97,6 +134,8 @@ std::string optimisation_table(const OptimisationReport& report, const std::stri
     }
     fmt::format_to(out, "\n");
   }
+  if (!report.front.empty())
+    front_table(report, out);
   fmt::format_to(out, "\nVerdict      {}: {}\n", verdict_name(report.verdict), report.message);
   fmt::format_to(out, "Evaluations  {} done, {} reused, {} failed; {:.1f} s\n", report.counts.done,
                  report.counts.reused, report.counts.failed, report.seconds);
@@ -106,7 +145,8 @@ std::string optimisation_table(const OptimisationReport& report, const std::stri
 
 Json optimisation_json(const OptimisationReport& report, const std::string& folder) {
   Json json;
-  json["kind"] = "optimize";
+  const bool pareto = report.study.kind == StudyKind::pareto;
+  json["kind"] = pareto ? "pareto" : "optimize";
   json["study"] = report.study.file;
   json["reduced"] = report.study.reduced;
   json["method"] = report.method;
@@ -136,6 +176,8 @@ Json optimisation_json(const OptimisationReport& report, const std::string& fold
     limits.push_back(std::move(limit));
   }
   json["limits"] = std::move(limits);
+  if (pareto)
+    json["front"] = front_json(report);
   json["certificate_worst"] = certificate_json(report.certificate_worst);
   json["folder"] = folder;
   return json;

@@ -35,7 +35,7 @@ void ResultFolder::write_text(const char* name, std::string_view text) const {
 
 void ResultFolder::write_plan(const StudyFile& study) const {
   nlohmann::ordered_json plan;
-  plan["kind"] = "optimize";
+  plan["kind"] = study.kind == StudyKind::pareto ? "pareto" : "optimize";
   plan["version"] = STRAINWAVE_VERSION;
   plan["hash"] = plan_hash(study);
   plan["seed"] = study.seed;

@@ -24,6 +24,7 @@ public:
     for (std::size_t i = 0; i < study_.variables.size(); ++i)
       check_variable(i);
     check_output("objective.output", study_.objective.output);
+    check_output("pareto.output", study_.pareto.output);
     for (std::size_t i = 0; i < study_.constraints.size(); ++i)
       check_constraint(i);
     if (!study_.method.name.empty())

@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 11> top_level{"kind",      "gear",     "seed",      "override",
+constexpr std::array<std::string_view, 12> top_level{"kind",      "gear",     "seed",      "override",
                                                      "load_case", "variable", "objective", "constraint",
-                                                     "method",    "limits",   "reduced"};
+                                                     "pareto",    "method",   "limits",    "reduced"};
 
 class Reader {
 public:
@@ -41,6 +41,10 @@ public:
       fault({1, 1}, "objective", "the table [objective] is missing; it has to give output");
     if (!root.contains("variable"))
       fault({1, 1}, "variable", "nothing varies; give at least one [[variable]] with path, lower and upper");
+    if (study_.kind == StudyKind::pareto && !root.contains("pareto"))
+      fault({1, 1}, "pareto", "the table [pareto] is missing; it has to give output, the aim that competes");
+    if (study_.kind != StudyKind::pareto && root.contains("pareto"))
+      fault(place_of(*root.get("pareto")), "pareto", "is of no use in a study of kind \"optimize\"");
     read_gear(root);
     if (const toml::node* node = root.get("reduced"); node && node->is_table())
       read_reduced(*node->as_table());
@@ -60,16 +64,18 @@ private:
   /// The keys of other kinds are not known here, so nothing else is said about their files.
   void refuse_other_kinds(const toml::table& root) {
     const toml::node* kind = root.get("kind");
-    if (!kind || !kind->is_string() || kind->as_string()->get() == study_kinds.front())
+    if (!kind || !kind->is_string())
       return;
     const std::string& name = kind->as_string()->get();
-    if (std::find(study_kinds.begin(), study_kinds.end(), name) == study_kinds.end())
+    const auto known = std::find(study_kinds.begin(), study_kinds.end(), name);
+    if (known == study_kinds.end() || known < study_kinds.begin() + runnable_kinds)
       return;
-    throw FileError(study_.file,
-                    {{place_of(*kind), "kind",
-                      fmt::format("the kind \"{}\" is not available in this version, which runs \"{}\" only",
-                                  name, study_kinds.front()),
-                      ""}});
+    throw FileError(
+        study_.file,
+        {{place_of(*kind), "kind",
+          fmt::format("the kind \"{}\" is not available in this version, which runs \"{}\" and \"{}\"", name,
+                      study_kinds[0], study_kinds[1]),
+          ""}});
   }
 
   /// One key of a table that is held in `table`. `prefix`: "method." or "variable[0].".
@@ -162,6 +168,8 @@ private:
       read_tables(study_.constraints, name, place, node);
     else if (name == "objective")
       read_table(study_.objective, name, place, node);
+    else if (name == "pareto")
+      read_table(study_.pareto, name, place, node);
     else if (name == "method")
       read_table(study_.method, name, place, node);
     else if (name == "limits")
@@ -276,6 +284,8 @@ private:
       return read_key(study_, "", path, key_place, node);
     if (table == "method" && !key.empty())
       return read_key(study_.method, "method.", key, key_place, node);
+    if (table == "pareto" && !key.empty())
+      return read_key(study_.pareto, "pareto.", key, key_place, node);
     if (table == "limits" && !key.empty())
       return read_key(study_.limits, "limits.", key, key_place, node);
     if (table == "objective" && !key.empty())

@@ -1,6 +1,6 @@
 #pragma once
 // Study files: TOML that names a gear, what may vary, what is wanted and how to search. This version runs
-// kind = "optimize"; the other kinds of studies are known by name and refused with a sentence.
+// kind = "optimize" and "pareto"; the other kinds of studies are known by name and refused with a sentence.
 //
 //     kind = "optimize"
 //     gear = "seed.toml"                          # relative to the study file
@@ -18,6 +18,8 @@
 //     [[constraint]]
 //     output = "rotation_rad"
 //     max_ratio_to_baseline = 1.05
+//     [pareto]                                    # kind = "pareto": the aim that competes
+//     output = "wind_up_rad"
 //     [method]
 //     budget = 200
 //     [reduced]                                   # what --reduced changes: keys of this file or of the gear
@@ -38,7 +40,7 @@
 
 namespace strainwave {
 
-enum class StudyKind { optimize };
+enum class StudyKind { optimize, pareto };
 
 /// Exactly one of torque and rotation is given.
 struct LoadCase {
@@ -79,6 +81,13 @@ struct StudyConstraint {
   std::optional<double> max_ratio_to_baseline; ///< the same
 };
 
+/// pareto: the second aim.
+struct StudyPareto {
+  std::string output;
+  Goal goal = Goal::minimise;
+  int points = 7; ///< of the front, ends included
+};
+
 struct StudyMethod {
   std::string name; ///< empty: the default of the kind
   int budget = 200; ///< evaluations
@@ -107,6 +116,7 @@ struct StudyFile {
   std::vector<StudyVariable> variables; ///< never empty
   StudyObjective objective;
   std::vector<StudyConstraint> constraints;
+  StudyPareto pareto; ///< output is empty in other kinds
   StudyMethod method;
   StudyLimits limits;
   std::vector<StudyChange> overrides; ///< already in `gear`

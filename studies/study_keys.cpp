@@ -106,8 +106,14 @@ std::span<const StudyKey<StudyFile>> study_keys(const StudyFile&) {
     key.field.choices = study_kinds;
     key.field.required = true;
     key.field.sentence = "what kind of study this is";
-    key.read = [](const StudyFile&) -> FieldValue { return std::string(study_kinds.front()); };
-    key.write = [](StudyFile&, const FieldValue&) {}; // only "optimize" gets this far
+    key.read = [](const StudyFile& study) -> FieldValue {
+      return std::string(study_kinds[static_cast<std::size_t>(study.kind)]);
+    };
+    key.write = [](StudyFile& study, const FieldValue& value) { // only kinds that run get this far
+      const bool pareto =
+          std::get<std::string>(value) == study_kinds[static_cast<std::size_t>(StudyKind::pareto)];
+      study.kind = pareto ? StudyKind::pareto : StudyKind::optimize;
+    };
     return key;
   }();
   static const std::array keys{
@@ -165,6 +171,15 @@ std::span<const StudyKey<StudyConstraint>> study_keys(const StudyConstraint&) {
                                                    "it stays at or above this times the baseline's value"),
       row<&StudyConstraint::max_ratio_to_baseline>("max_ratio_to_baseline", "", above_zero(1e9),
                                                    "it stays at or below this times the baseline's value"),
+  };
+  return keys;
+}
+
+std::span<const StudyKey<StudyPareto>> study_keys(const StudyPareto&) {
+  static const std::array keys{
+      row<&StudyPareto::output>("output", "", any, "the result that competes with the objective", needed),
+      choice_row<&StudyPareto::goal>("goal", "whether less or more of it is wanted"),
+      row<&StudyPareto::points>("points", "", within(2, 1000), "points of the front, ends included"),
   };
   return keys;
 }

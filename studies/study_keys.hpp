@@ -25,12 +25,15 @@ std::span<const StudyKey<StudyVariable>> study_keys(const StudyVariable&);
 std::span<const StudyKey<VariableLink>> study_keys(const VariableLink&);
 std::span<const StudyKey<StudyObjective>> study_keys(const StudyObjective&);
 std::span<const StudyKey<StudyConstraint>> study_keys(const StudyConstraint&);
+std::span<const StudyKey<StudyPareto>> study_keys(const StudyPareto&);
 std::span<const StudyKey<StudyMethod>> study_keys(const StudyMethod&);
 std::span<const StudyKey<StudyLimits>> study_keys(const StudyLimits&);
 
-/// All kinds of studies by name; the first is the one that this version runs.
+/// All kinds of studies by name; those of StudyKind come first and are the ones that this version runs.
 inline constexpr std::array<std::string_view, 5> study_kinds{"optimize", "pareto", "sweep", "monte_carlo",
                                                              "sensitivity"};
+
+inline constexpr std::size_t runnable_kinds = 2;
 
 /// Tables of study files of the other kinds.
 inline constexpr std::array<std::string_view, 2> tables_of_other_kinds{"source", "sampling"};

@@ -51,6 +51,8 @@ std::string write_study(const StudyFile& study) {
   text += "\n[objective]\n" + keys_of(study.objective);
   for (const StudyConstraint& constraint : study.constraints)
     text += "\n[[constraint]]\n" + keys_of(constraint);
+  if (study.kind == StudyKind::pareto)
+    text += "\n[pareto]\n" + keys_of(study.pareto);
   text += "\n[method]\n" + keys_of(study.method);
   text += "\n[limits]\n" + keys_of(study.limits);
   text += changes_of("reduced", study.reduced_changes);

@@ -103,6 +103,7 @@ private:
   /// Worst over the phases of one pitch; the arrays are those of the phase with the largest tooth force.
   std::optional<Failure> one_case(const Asked& asked, Direction direction) {
     std::optional<LoadResult> worst;
+    std::vector<PhaseForces> phases;
     double least_rotation = std::numeric_limits<double>::infinity();
     double most_rotation = -least_rotation;
     for (int j = 0; j < gear_.load.phases; ++j) {
@@ -114,6 +115,7 @@ private:
       least_rotation = std::min(least_rotation, load->rotation_rad);
       most_rotation = std::max(most_rotation, load->rotation_rad);
       LoadResult presented = present(**model, *load, direction, phase);
+      phases.push_back({phase, presented.rotation_rad, presented.tooth, presented.force_n});
       if (!worst || presented.peak_force_n > worst->peak_force_n) worst = std::move(presented);
     }
     if (gear_.load.phases > 1 && asked.torque) {
@@ -122,6 +124,7 @@ private:
     if (worst->engaged_count == 0 && !asked.torque) {
       result_.message = fmt::format("no tooth is in contact at a rotation of {:.6g} rad", asked.value);
     }
+    worst->phases = std::move(phases);
     result_.load.push_back(std::move(*worst));
     return std::nullopt;
   }

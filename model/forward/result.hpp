@@ -58,6 +58,14 @@ struct PointResults {
   std::vector<double> gap_um; ///< loaded; 0 where closed
 };
 
+/// Tooth forces at one meshing phase, every tooth that can carry load.
+struct PhaseForces {
+  double phase = 0.0;
+  double rotation_rad = 0.0;
+  std::vector<int> tooth;
+  std::vector<double> force_n;
+};
+
 struct LoadResult {
   Direction direction = Direction::drive;
   double rotation_rad = 0.0; ///< of the phase with the largest tooth force
@@ -77,6 +85,7 @@ struct LoadResult {
   std::optional<double> transmission_error_arcsec; ///< peak to peak over the phases of one pitch, at constant torque
   double gap_correction_rotation_rad = 0.0; ///< exact disc gap against the linearised one
   double gap_correction_force_n = 0.0;
+  std::vector<PhaseForces> phases; ///< all of them, the one of the arrays above included
   PointResults points; ///< empty with one point a tooth
 };
 

@@ -30,10 +30,10 @@ const KnownProblem ridge{.name = "ridge",
                          .limits = 0,
                          .least = -1.0};
 
-std::optional<Point> look(const KnownProblem& known, const std::vector<double>& x) {
+std::optional<SearchPoint> look(const KnownProblem& known, const std::vector<double>& x) {
   FunctionEvaluator evaluator(known.function, known.limits);
   const Problem problem = make_problem(known, evaluator);
-  const Point from = problem.at(problem.design().scaled(x));
+  const SearchPoint from = problem.at(problem.design().scaled(x));
   return find_descent(problem, from, 0.01, 1, [&](std::span<const double> y) { return problem.at(y); });
 }
 

@@ -5,37 +5,37 @@
 namespace strainwave {
 namespace {
 
-Design two_variables() {
-  return Design({{.path = NumberPath("flank_modification.flexspline.tip_relief_um"),
-                  .lower = 0.0,
-                  .upper = 15.0,
-                  .start = 3.0,
-                  .scale = 5.0,
-                  .links = {}},
-                 {.path = NumberPath("wave_generator.max_radial_deformation_mm"),
-                  .lower = 0.19,
-                  .upper = 0.21,
-                  .start = 0.2,
-                  .links = {{NumberPath("wave_generator.eccentricity_mm"), 3.0}}}});
+DesignSpace two_variables() {
+  return DesignSpace({{.path = NumberPath("flank_modification.flexspline.tip_relief_um"),
+                       .lower = 0.0,
+                       .upper = 15.0,
+                       .start = 3.0,
+                       .scale = 5.0,
+                       .links = {}},
+                      {.path = NumberPath("wave_generator.max_radial_deformation_mm"),
+                       .lower = 0.19,
+                       .upper = 0.21,
+                       .start = 0.2,
+                       .links = {{NumberPath("wave_generator.eccentricity_mm"), 3.0}}}});
 }
 
-TEST(Design, PutsItsNumbersAndTheLinkedOnesIntoTheGear) {
+TEST(DesignSpace, PutsItsNumbersAndTheLinkedOnesIntoTheGear) {
   const Gear gear = two_variables().apply(seed_gear(), std::vector{4.5, 0.195});
   EXPECT_EQ(gear.flank_modification.flexspline.tip_relief_um, 4.5);
   EXPECT_EQ(gear.wave_generator.max_radial_deformation_mm, 0.195);
   EXPECT_EQ(*gear.wave_generator.eccentricity_mm, 3.0 * 0.195);
 }
 
-TEST(Design, LeavesTheRestOfTheGearAlone) {
-  const Design design = two_variables();
+TEST(DesignSpace, LeavesTheRestOfTheGearAlone) {
+  const DesignSpace design = two_variables();
   const Gear gear = design.apply(seed_gear(), design.read(seed_gear()));
   Gear expected = seed_gear();
   expected.wave_generator.eccentricity_mm = 3.0 * 0.2;
   EXPECT_EQ(canonical_bits(gear), canonical_bits(expected));
 }
 
-TEST(Design, ScalesByTheTypicalChangeOrTheRange) {
-  const Design design = two_variables();
+TEST(DesignSpace, ScalesByTheTypicalChangeOrTheRange) {
+  const DesignSpace design = two_variables();
   const std::vector<double> y = design.scaled(std::vector{5.0, 0.2});
   EXPECT_DOUBLE_EQ(y[0], 1.0);   // 5 µm is one scale above the lower bound
   EXPECT_NEAR(y[1], 0.5, 1e-13); // the middle of the range
@@ -43,20 +43,20 @@ TEST(Design, ScalesByTheTypicalChangeOrTheRange) {
   EXPECT_DOUBLE_EQ(design.scaled_upper()[1], 1.0);
 }
 
-TEST(Design, MeetsItsBoundsExactlyWhateverTheRounding) {
-  const Design design = two_variables();
+TEST(DesignSpace, MeetsItsBoundsExactlyWhateverTheRounding) {
+  const DesignSpace design = two_variables();
   EXPECT_EQ(design.unscaled(std::vector{0.0, 0.0}), (std::vector{0.0, 0.19}));
   EXPECT_EQ(design.unscaled(design.scaled_upper()), (std::vector{15.0, 0.21}));
   EXPECT_EQ(design.unscaled(std::vector{-1e-16, 1.0 + 1e-15}), (std::vector{0.0, 0.21}));
 }
 
-TEST(Design, RefusesBoundsThatCrossAndStartsOutsideThem) {
+TEST(DesignSpace, RefusesBoundsThatCrossAndStartsOutsideThem) {
   const auto design = [](double lower, double upper, double start) {
-    return Design({{.path = NumberPath("circular_spline.profile_shift"),
-                    .lower = lower,
-                    .upper = upper,
-                    .start = start,
-                    .links = {}}});
+    return DesignSpace({{.path = NumberPath("circular_spline.profile_shift"),
+                         .lower = lower,
+                         .upper = upper,
+                         .start = start,
+                         .links = {}}});
   };
   EXPECT_THROW(design(2.2, 2.1, 2.15), FieldError);
   EXPECT_THROW(design(2.1, 2.2, 2.3), FieldError);

@@ -21,7 +21,9 @@ class FunctionEvaluator : public Evaluator {
 public:
   using Function = std::function<std::vector<double>(std::span<const double>)>;
 
-  FunctionEvaluator(Function function, std::size_t limits) : function_(std::move(function)) {
+  /// With `pieces`, the function returns f's pieces behind f and the limits.
+  FunctionEvaluator(Function function, std::size_t limits, std::size_t pieces = 0)
+      : function_(std::move(function)), pieces_(pieces) {
     names_.push_back("f");
     for (std::size_t k = 0; k < limits; ++k)
       names_.push_back(limit_name(k));
@@ -35,15 +37,25 @@ public:
     Evaluation evaluation;
     evaluation.values = function_(x);
     evaluation.ok = !evaluation.values.empty(); // an empty list: failed
+    if (evaluation.ok) {
+      const auto behind = evaluation.values.end() - static_cast<std::ptrdiff_t>(pieces_);
+      evaluation.pieces.assign(behind, evaluation.values.end());
+      evaluation.values.erase(behind, evaluation.values.end());
+    }
     evaluation.status = evaluation.ok ? "ok" : "not_converged";
     evaluation.message = evaluation.ok ? "" : "made to fail";
     return evaluation;
+  }
+
+  std::optional<std::size_t> pieces_of() const override {
+    return pieces_ > 0 ? std::optional<std::size_t>(0) : std::nullopt;
   }
 
   std::atomic<int> calls = 0;
 
 private:
   Function function_;
+  std::size_t pieces_;
   std::vector<std::string> names_;
   std::vector<Response> responses_;
 };
@@ -52,7 +64,7 @@ struct Box {
   double lower, upper, start;
 };
 
-inline Design box_design(const std::vector<Box>& box) {
+inline DesignSpace box_design(const std::vector<Box>& box) {
   static const std::vector<std::string> paths = [] {
     std::vector<std::string> all;
     for (const char* member : {"flexspline", "circular_spline"})
@@ -68,7 +80,7 @@ inline Design box_design(const std::vector<Box>& box) {
                          .upper = box[i].upper,
                          .start = box[i].start,
                          .links = {}});
-  return Design(std::move(variables));
+  return DesignSpace(std::move(variables));
 }
 
 /// A minimisation with g_k ≤ 0 and a known answer.

@@ -15,17 +15,17 @@ Gear coarse_gear() {
                .along_face = 4,
                .along_wall = 5,
                .diaphragm = 3,
-               .tooth_height = 1,
+               .tooth_height = 2,
                .through_thickness = 1};
   return gear;
 }
 
-Design u0_design() {
-  return Design({{.path = NumberPath("wave_generator.max_radial_deformation_mm"),
-                  .lower = 0.15,
-                  .upper = 0.21,
-                  .start = 0.2,
-                  .links = {{NumberPath("wave_generator.eccentricity_mm"), 3.0}}}});
+DesignSpace u0_design() {
+  return DesignSpace({{.path = NumberPath("wave_generator.max_radial_deformation_mm"),
+                       .lower = 0.15,
+                       .upper = 0.21,
+                       .start = 0.2,
+                       .links = {{NumberPath("wave_generator.eccentricity_mm"), 3.0}}}});
 }
 
 double value(const Evaluation& evaluation, std::string_view name) {
@@ -67,11 +67,11 @@ TEST(GearEvaluator, TakesTheWorstOfSeveralLoads) {
 
 TEST(GearEvaluator, ADesignWithoutResultIsAFailedEvaluationWithItsSentence) {
   Gear gear = coarse_gear();
-  const Design eccentricity({{.path = NumberPath("wave_generator.eccentricity_mm"),
-                              .lower = 0.3,
-                              .upper = 1.5,
-                              .start = 0.6,
-                              .links = {}}});
+  const DesignSpace eccentricity({{.path = NumberPath("wave_generator.eccentricity_mm"),
+                                   .lower = 0.3,
+                                   .upper = 1.5,
+                                   .start = 0.6,
+                                   .links = {}}});
   GearEvaluator evaluator(gear, eccentricity, {{.torque_nm = {7.0}, .rotation_rad = {}}},
                           {.disk_cache = false});
   const Evaluation e = evaluator.evaluate(std::vector{0.31}); // e/u0 = 1.55: no wrap below 2.752

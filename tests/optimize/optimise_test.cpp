@@ -96,7 +96,7 @@ TEST(GlobalThenPolish, IsTheSameForAnyNumberOfThreads) {
 TEST(BestApart, TakesTheBestOfEveryNeighbourhood) {
   FunctionEvaluator evaluator([](std::span<const double> x) { return std::vector{x[0]}; }, 0);
   const Problem problem = make_problem({.name = "", .box = {{0, 10, 5}}, .function = {}}, evaluator);
-  std::vector<Point> points;
+  std::vector<SearchPoint> points;
   for (const double x : {5.0, 1.0, 1.2, 5.3, 9.0})
     points.push_back(problem.at(problem.design().scaled(std::vector{x})));
   const auto best = best_apart(problem, points, 3, 0.1);

@@ -18,7 +18,7 @@ Evaluation values(std::vector<double> list) {
 class ProblemOfTwo : public testing::Test {
 protected:
   FunctionEvaluator evaluator{[](std::span<const double> x) { return std::vector{x[0], x[0] * x[0]}; }, 1};
-  Design design = box_design({{0, 10, 4}});
+  DesignSpace design = box_design({{0, 10, 4}});
   Evaluation baseline = values({50.0, 200.0});
 
   Problem problem(std::vector<Constraint> constraints, bool maximise = false) {
@@ -77,11 +77,11 @@ TEST_F(ProblemOfTwo, NumberThatIsNoneCountsAsAFailedEvaluation) {
 }
 
 TEST(BetterPoint, FeasibleComesBeforeInfeasibleBeforeFailed) {
-  const Point good{.y = {}, .ok = true, .objective = 5.0, .constraint = {}, .violation = 0.0};
-  const Point worse{.y = {}, .ok = true, .objective = 6.0, .constraint = {}, .violation = 0.0};
-  const Point outside{.y = {}, .ok = true, .objective = 1.0, .constraint = {}, .violation = 0.5};
-  const Point further{.y = {}, .ok = true, .objective = 0.0, .constraint = {}, .violation = 0.6};
-  const Point failed;
+  const SearchPoint good{.y = {}, .ok = true, .objective = 5.0, .constraint = {}, .violation = 0.0};
+  const SearchPoint worse{.y = {}, .ok = true, .objective = 6.0, .constraint = {}, .violation = 0.0};
+  const SearchPoint outside{.y = {}, .ok = true, .objective = 1.0, .constraint = {}, .violation = 0.5};
+  const SearchPoint further{.y = {}, .ok = true, .objective = 0.0, .constraint = {}, .violation = 0.6};
+  const SearchPoint failed;
   EXPECT_TRUE(better(good, worse));
   EXPECT_TRUE(better(worse, outside));
   EXPECT_TRUE(better(outside, further));

@@ -9,7 +9,7 @@ namespace strainwave {
 namespace {
 
 TEST(StartPoints, BeginWithTheStudysStartAndStayInTheBox) {
-  const Design design = box_design({{0, 10, 4}, {-1, 1, 0}});
+  const DesignSpace design = box_design({{0, 10, 4}, {-1, 1, 0}});
   const auto points = start_points(design, 50, 1);
   ASSERT_EQ(points.size(), 50u);
   EXPECT_EQ(points[0], design.scaled(design.start()));
@@ -19,7 +19,7 @@ TEST(StartPoints, BeginWithTheStudysStartAndStayInTheBox) {
 }
 
 TEST(StartPoints, ShorterListsAreTheBeginningOfLongerOnes) {
-  const Design design = box_design({{0, 10, 4}, {-1, 1, 0}, {0, 1, 0}});
+  const DesignSpace design = box_design({{0, 10, 4}, {-1, 1, 0}, {0, 1, 0}});
   const auto few = start_points(design, 5, 9);
   const auto many = start_points(design, 12, 9);
   EXPECT_TRUE(std::equal(few.begin(), few.end(), many.begin()));

@@ -21,7 +21,7 @@ namespace {
 const std::string coarse_study = R"(kind = "optimize"
 gear = "seed.toml"
 [override]
-mesh = { per_pitch = 3, along_face = 4, along_wall = 5, diaphragm = 3, tooth_height = 1 }
+mesh = { per_pitch = 3, along_face = 4, along_wall = 5, diaphragm = 3, tooth_height = 2 }
 [[load_case]]
 torque_nm = 7.0
 [[variable]]

@@ -1,0 +1,27 @@
+#pragma once
+// Small linear programmes:   minimise costᵀx   subject to   each row · x ≤ (or =) its bound,   x ≥ 0.
+//
+// Dense two-phase simplex with Bland's rule (R. Bland, Math. Oper. Res. 2, 1977), which cannot cycle. For
+// some tens of unknowns and rows of comparable size; scale the rows before.
+
+#include <optional>
+#include <vector>
+
+namespace strainwave {
+
+struct LinearRow {
+  std::vector<double> coefficient;
+  double bound = 0.0;
+  bool equal = false; ///< else at most
+};
+
+struct LinearSolution {
+  std::vector<double> x;
+  double cost = 0.0;
+};
+
+/// Nothing if no x keeps all rows. Throws std::domain_error if the cost has no lower bound.
+std::optional<LinearSolution> solve_linear_program(const std::vector<double>& cost,
+                                                   const std::vector<LinearRow>& rows);
+
+} // namespace strainwave
