@@ -23,6 +23,7 @@ bool BlockOrder::advance() {
       if (!guard_done_ && first_rows_.size() == options_.all_fail_guard) {
         ended_ = guard_done_ = true;
         end_ = RunEnd::all_failed;
+        end_rows_ = rows;
         sentence_ = common_reason();
       }
     }

@@ -9,8 +9,8 @@
 // table.
 //
 //     StopSignals signals;
-//     RunResult run = run_rows(plan, inputs, model, journal_file, {.threads = 2, .stop =
-//     &signals.request()}); return run_exit_code(run.end);
+//     RunResult run = run_rows(plan, inputs, model, file, {.threads = 2, .stop = &signals.request()});
+//     return run_exit_code(run.end);
 
 #include "studies/engine/progress.hpp"
 #include "studies/engine/row_model.hpp"

@@ -7,7 +7,7 @@
 //   sobol            scrambled Sobol' points; the number per randomisation is a power of two.
 //
 // The last two are not independent samples, so their intervals come from R independent randomisations: sample
-// k is point k % (N/R) of randomisation k / (N/R); see statistics/replicates.hpp. Random samples have R = 1.
+// k is point k % (N/R) of randomisation k / (N/R); see statistics/interval.hpp. Random samples have R = 1.
 
 #include "studies/sampling/sobol_points.hpp"
 
