@@ -51,7 +51,7 @@ void per_row(benchmark::State& state, std::uint64_t rows) {
 
 // Issue: at most 1 µs per evaluation, journal on, empty model; eight random inputs are drawn for each.
 void EmptyStudy(benchmark::State& state) {
-  const SampleDesign design({.design = Design::random, .samples = million, .dimensions = 8});
+  const SampleDesign design({.design = SamplingDesign::random, .samples = million, .dimensions = 8});
   const RowInputs inputs = [&](std::uint64_t first, std::size_t count, std::span<double> rows) {
     design.points(first, count, rows);
   };
@@ -81,7 +81,7 @@ BENCHMARK(ResumeOfAMillionRows)->Arg(1)->Arg(1024)->Unit(benchmark::kMillisecond
 // 290 numbers: an error for every tooth of the seed gear's two members and a few of the whole gear.
 void Design290(benchmark::State& state) {
   const SampleDesign design(
-      {.design = static_cast<Design>(state.range(0)), .samples = million, .dimensions = 290});
+      {.design = static_cast<SamplingDesign>(state.range(0)), .samples = million, .dimensions = 290});
   std::vector<double> rows(64 * 290);
   std::uint64_t first = 0;
   for (auto _ : state) {
@@ -96,7 +96,7 @@ BENCHMARK(Design290)->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMicrosecond);
 void Normal290(benchmark::State& state) {
   const std::vector<Distribution> distributions(290, Normal{0.0, 0.5});
   const SourceValues sources(distributions);
-  const SampleDesign design({.design = Design::random, .samples = million, .dimensions = 290});
+  const SampleDesign design({.design = SamplingDesign::random, .samples = million, .dimensions = 290});
   std::vector<double> uniforms(64 * 290), rows;
   design.points(0, 64, uniforms);
   for (auto _ : state) {

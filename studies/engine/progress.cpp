@@ -5,11 +5,11 @@
 
 namespace strainwave {
 
-double Progress::rows_per_second() const {
+double RunProgress::rows_per_second() const {
   return seconds > 0.0 ? static_cast<double>(done - reused) / seconds : 0.0;
 }
 
-double Progress::seconds_left() const {
+double RunProgress::seconds_left() const {
   const double rate = rows_per_second();
   return rate > 0.0 ? static_cast<double>(total - done) / rate : 0.0;
 }
@@ -25,7 +25,7 @@ std::string duration_text(double seconds) {
   return fmt::format("{} d {} h", s / 86400, s % 86400 / 3600);
 }
 
-std::string progress_line(const Progress& p) {
+std::string progress_line(const RunProgress& p) {
   const double share =
       p.total > 0 ? 100.0 * static_cast<double>(p.done) / static_cast<double>(p.total) : 100.0;
   std::string line = fmt::format("{:.1f} %  {} of {} rows", share, p.done, p.total);

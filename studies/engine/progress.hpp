@@ -6,7 +6,7 @@
 
 namespace strainwave {
 
-struct Progress {
+struct RunProgress {
   std::uint64_t total = 0;  ///< rows of this shard
   std::uint64_t done = 0;   ///< reused ones included
   std::uint64_t reused = 0; ///< known from the journal
@@ -18,7 +18,7 @@ struct Progress {
 };
 
 /// "12.0 %  120000 of 1000000 rows, 35 failed, 52300 rows/s, 17 s left"
-std::string progress_line(const Progress&);
+std::string progress_line(const RunProgress&);
 
 /// "17 s", "4 min 10 s", "3 h 20 min", "2 d 3 h"
 std::string duration_text(double seconds);

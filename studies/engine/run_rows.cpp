@@ -125,8 +125,8 @@ private:
       finished_.wait_for(lock, std::chrono::milliseconds(50));
       counts_.seconds = seconds_since(begin_);
       if (!asked_to_stop_ && !order_.ended()) {
-        if (options_.stop && options_.stop->reason() != 0)
-          asked_to_stop_ = RunEnd::signal;
+        if (options_.stop && options_.stop())
+          asked_to_stop_ = RunEnd::stopped;
         else if (options_.time_limit_s && counts_.seconds >= *options_.time_limit_s)
           asked_to_stop_ = RunEnd::time_limit;
         if (asked_to_stop_) {
@@ -138,7 +138,7 @@ private:
       const bool overdue = overdue_at && counts_.seconds >= *overdue_at && options_.overdue;
       if (!report && !overdue)
         continue;
-      const Progress now = counts_;
+      const RunProgress now = counts_;
       lock.unlock();
       if (report) {
         options_.progress(now);
@@ -157,9 +157,9 @@ private:
     counts_.seconds = seconds_since(begin_);
     RunResult result{std::move(table_), order_.end(), counts_, order_.sentence(), journal_.found().damage};
     if (!order_.ended()) {
-      result.end = asked_to_stop_.value_or(RunEnd::signal);
+      result.end = asked_to_stop_.value_or(RunEnd::stopped);
       result.sentence = fmt::format("stopped early by {} with {} of {} rows done; run again to go on",
-                                    result.end == RunEnd::signal ? "a signal" : "the time limit",
+                                    result.end == RunEnd::stopped ? "a signal" : "the time limit",
                                     counts_.done, counts_.total);
       return result;
     }
@@ -187,7 +187,7 @@ private:
   std::mutex mutex_; ///< table, order, counts, working, error
   std::condition_variable finished_;
   std::size_t working_ = 0;
-  Progress counts_;
+  RunProgress counts_;
   std::optional<RunEnd> asked_to_stop_;
   std::exception_ptr error_;
   JournalWriter journal_;
@@ -210,7 +210,7 @@ int run_exit_code(RunEnd end) {
   case RunEnd::too_many_failed:
     return 3;
   case RunEnd::time_limit:
-  case RunEnd::signal:
+  case RunEnd::stopped:
     break;
   }
   return 75;

@@ -8,13 +8,11 @@
 // blocks that were evaluated past the end of a stopped study stay in the journal and are left out of the
 // table.
 //
-//     StopSignals signals;
-//     RunResult run = run_rows(plan, inputs, model, file, {.threads = 2, .stop = &signals.request()});
+//     RunResult run = run_rows(plan, inputs, model, file, {.threads = 2, .stop = signalled});
 //     return run_exit_code(run.end);
 
 #include "studies/engine/progress.hpp"
 #include "studies/engine/row_model.hpp"
-#include "studies/engine/stop_request.hpp"
 #include "studies/journal/row_table.hpp"
 
 #include <chrono>
@@ -41,8 +39,8 @@ struct EngineOptions {
   /// Looked at after every block in index order with the number of rows so far: true ends the study there.
   /// One shard only.
   std::function<bool(const RowTable&, std::uint64_t rows)> enough = {};
-  const StopRequest* stop = nullptr;
-  std::function<void(const Progress&)> progress = {}; ///< from the calling thread
+  std::function<bool()> stop = {}; ///< asked some 20 times a second: end early? (a signal has come)
+  std::function<void(const RunProgress&)> progress = {}; ///< from the calling thread
   double progress_every_s = 1.0;
   std::chrono::milliseconds sync_every{1000}; ///< of the journal: what a power cut may cost
   /// After a stop, rows in flight may take this long; then the journal is synced and `overdue` is called (a
@@ -51,12 +49,12 @@ struct EngineOptions {
   std::function<void()> overdue = {};
 };
 
-enum class RunEnd { complete, enough, time_limit, signal, all_failed, too_many_failed };
+enum class RunEnd { complete, enough, time_limit, stopped, all_failed, too_many_failed };
 
 struct RunResult {
   RowTable table; ///< cut at the end that `enough` chose
   RunEnd end = RunEnd::complete;
-  Progress counts;
+  RunProgress counts;
   std::string sentence; ///< why, where it is not complete
   std::string damage;   ///< tail of the journal that was cut when it was opened; empty: none
 };

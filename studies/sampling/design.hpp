@@ -18,14 +18,14 @@
 
 namespace strainwave {
 
-enum class Design { random, latin_hypercube, sobol };
+enum class SamplingDesign { random, latin_hypercube, sobol };
 
 struct DesignPlan {
-  Design design = Design::random;
+  SamplingDesign design = SamplingDesign::random;
   std::uint64_t seed = 1;
   std::uint64_t samples = 0; ///< N
   int dimensions = 0;
-  int randomisations = 16; ///< R; does not matter for Design::random
+  int randomisations = 16; ///< R; does not matter for SamplingDesign::random
 };
 
 class SampleDesign {

@@ -3,7 +3,7 @@
 // histogram.
 //
 // Two families of intervals:
-//   independent samples (Design::random)
+//   independent samples (SamplingDesign::random)
 //       mean: Student's t; standard deviation: from the fourth moment, on the logarithm, so that no normal
 //       distribution is assumed; quantiles: order statistics; shares: Wilson.
 //   randomised designs (Latin hypercube, Sobol')
