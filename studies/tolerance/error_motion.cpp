@@ -1,7 +1,6 @@
 #include "studies/tolerance/error_motion.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace strainwave {
 
@@ -63,46 +62,73 @@ std::size_t tolerance_dimensions(const ToleranceSource& source, int flexspline_t
   return 2;
 }
 
-ToothMotion error_motion(const ToleranceSource& source, std::span<const double> values,
-                         const MeshPlace& place, const MeshNumbers& mesh) {
+bool is_per_tooth(ToleranceKind kind) {
+  return kind == ToleranceKind::adjacent_pitch || kind == ToleranceKind::backlash_noise;
+}
+
+int error_order(const ToleranceSource& source) {
+  switch (source.kind) {
+  case ToleranceKind::cumulative_pitch:
+    return source.harmonic;
+  case ToleranceKind::run_out:
+  case ToleranceKind::centre_offset:
+    return 1;
+  case ToleranceKind::ovality:
+    return 2;
+  case ToleranceKind::adjacent_pitch:
+  case ToleranceKind::tooth_thickness:
+  case ToleranceKind::backlash_noise:
+    break;
+  }
+  return 0;
+}
+
+ErrorAtTooth error_vector(const ToleranceSource& source, std::span<const double> values) {
+  switch (source.kind) {
+  case ToleranceKind::cumulative_pitch:
+  case ToleranceKind::run_out:
+    return {values[0] * std::cos(values[1]), values[0] * std::sin(values[1])};
+  case ToleranceKind::ovality:
+    return {values[0] * std::cos(2.0 * values[1]), values[0] * std::sin(2.0 * values[1])};
+  case ToleranceKind::centre_offset:
+    return {values[0], values[1]};
+  case ToleranceKind::tooth_thickness:
+    return {values[0], 0.0};
+  case ToleranceKind::adjacent_pitch:
+  case ToleranceKind::backlash_noise:
+    break;
+  }
+  return {};
+}
+
+ToothMotion error_motion(const ToleranceSource& source, const ErrorAtTooth& error, const MeshPlace& place,
+                         const MeshNumbers& mesh) {
   const bool on_flexspline = source.member == Member::flexspline;
-  const int own = on_flexspline ? place.flexspline_tooth : place.space;
-  const double own_angle =
-      2.0 * std::numbers::pi * own / (on_flexspline ? mesh.flexspline_teeth : mesh.circular_spline_teeth);
-  const double space_angle = 2.0 * std::numbers::pi * place.space / mesh.circular_spline_teeth;
   switch (source.kind) {
   case ToleranceKind::adjacent_pitch:
-    return turned_in_its_gear(source, values[static_cast<std::size_t>(own)], place, mesh);
   case ToleranceKind::cumulative_pitch:
-    return turned_in_its_gear(source, values[0] * std::cos(source.harmonic * own_angle - values[1]), place,
-                              mesh);
+    return turned_in_its_gear(source, error.first, place, mesh);
   case ToleranceKind::run_out: {
-    const double along = values[0] * std::cos(own_angle - values[1]);
-    const double across = -values[0] * std::sin(own_angle - values[1]);
     if (!on_flexspline)
-      return against_space(place, mesh, along, across, 0.0);
+      return against_space(place, mesh, error.first, error.second, 0.0);
     // Moved along the neutral line, but not turned with it.
-    const double turn = across / mesh.neutral_radius_mm;
+    const double turn = error.second / mesh.neutral_radius_mm;
     ToothMotion motion = material_shift(place, turn);
-    motion += in_tooth_frame(place, along, 0.0, -turn);
+    motion += in_tooth_frame(place, error.first, 0.0, -turn);
     return motion;
   }
   case ToleranceKind::tooth_thickness: {
-    if (on_flexspline) { // the drive flank turns about the axis of the undeformed gear
-      const double turn = 0.5 * values[0] / mesh.flexspline_pitch_mm;
-      return in_tooth_frame(place, 0.0, mesh.neutral_radius_mm * turn, turn);
-    }
-    const double turn = 0.5 * values[0] / mesh.circular_spline_pitch_mm;
-    return {0.0, -place.pose.value.rho_mm * turn, -turn};
+    if (!on_flexspline)
+      return turned_in_its_gear(source, 0.5 * error.first, place, mesh);
+    // The drive flank turns about the axis of the undeformed gear.
+    const double turn = 0.5 * error.first / mesh.flexspline_pitch_mm;
+    return in_tooth_frame(place, 0.0, mesh.neutral_radius_mm * turn, turn);
   }
   case ToleranceKind::centre_offset:
-    return against_space(place, mesh, values[0] * std::cos(space_angle) + values[1] * std::sin(space_angle),
-                         -values[0] * std::sin(space_angle) + values[1] * std::cos(space_angle), 0.0);
-  case ToleranceKind::ovality: {
-    const double t = 2.0 * (space_angle - values[1]);
-    return against_space(place, mesh, values[0] * std::cos(t), -0.5 * values[0] * std::sin(t),
-                         1.5 * values[0] * std::sin(t) / mesh.circular_spline_pitch_mm);
-  }
+    return against_space(place, mesh, error.first, error.second, 0.0);
+  case ToleranceKind::ovality: // with t = 2 (theta - psi): first = A cos t, second = -A sin t
+    return against_space(place, mesh, error.first, 0.5 * error.second,
+                         -1.5 * error.second / mesh.circular_spline_pitch_mm);
   case ToleranceKind::backlash_noise:
     break;
   }

@@ -38,8 +38,22 @@ struct MeshNumbers {
   double neutral_radius_mm = 0.0;
 };
 
-/// `values`: those of this source alone. backlash_noise moves nothing.
-ToothMotion error_motion(const ToleranceSource&, std::span<const double> values, const MeshPlace&,
-                         const MeshNumbers&);
+/// What an error comes down to at one tooth k of its member, in two numbers. Per-tooth errors: delta_k and 0.
+/// All others are a vector (p, q) seen in the frame of the tooth, which stands at the angle m theta_k: first
+/// = p cos + q sin, second = q cos - p sin.
+struct ErrorAtTooth {
+  double first = 0.0;
+  double second = 0.0;
+};
+
+/// m and (p, q) of a sample of a source that is no per-tooth error: tooth_thickness (ds, 0), m = 0;
+/// cumulative_pitch and run_out A (cos psi, sin psi), m = n and 1; centre_offset (x, y), m = 1; ovality A
+/// (cos 2 psi, sin 2 psi), m = 2.
+bool is_per_tooth(ToleranceKind);
+int error_order(const ToleranceSource&);
+ErrorAtTooth error_vector(const ToleranceSource&, std::span<const double> values);
+
+/// Linear in the error. backlash_noise moves nothing.
+ToothMotion error_motion(const ToleranceSource&, const ErrorAtTooth&, const MeshPlace&, const MeshNumbers&);
 
 } // namespace strainwave

@@ -23,11 +23,10 @@ class ToleranceModel {
 public:
   /// Failures: those of backlash(); contradiction when z2 − z1 is odd (a tooth of the second lobe then meets
   /// no space).
-  static Outcome<ToleranceModel> make(const Gear&, const NeutralCurve&, std::vector<ToleranceSource>);
+  static Outcome<ToleranceModel> make(const Gear&, const NeutralCurve&, const std::vector<ToleranceSource>&);
 
-  const std::vector<ToleranceSource>& sources() const { return sources_; }
   std::size_t dimensions() const { return dimensions_; }
-  std::size_t first_dimension(std::size_t source) const { return first_[source]; }
+  std::size_t first_dimension(std::size_t source) const { return sources_[source].first; }
 
   /// Teeth whose flanks overlap those of their space, ascending material angle.
   std::size_t teeth() const { return slots_.size(); }
@@ -42,17 +41,26 @@ public:
 private:
   struct Slot {
     double phi_rad = 0.0;
-    int index = 0; ///< of tooth and space at position 0; may be negative
-    int lobe = 0;
-    MeshPlace place; ///< without the teeth's numbers
+    int flexspline_tooth = 0, space = 0; ///< at position 0
+    MeshPlace place;                     ///< without the teeth's numbers
     ToothBacklash nominal;
-    ToothMotion backlash_by, radius_by; ///< derivatives by each component
   };
-  void differentiate(Slot&, const FlankPair&) const;
+  /// Change of a tooth's backlash and radius for ErrorAtTooth (1, 0) and (0, 1).
+  struct Change {
+    double backlash_first = 0.0, backlash_second = 0.0;
+    double radius_first = 0.0, radius_second = 0.0;
+  };
+  struct Source {
+    ToleranceSource source;
+    std::size_t first = 0;            ///< its dimensions in a sample
+    std::vector<double> cosine, sine; ///< of m theta_k for every tooth of its member
+    std::vector<Change> by_slot;
+  };
+  void add_source(ToleranceSource, const std::vector<ToothMotion>& backlash_by,
+                  const std::vector<ToothMotion>& radius_by);
   MeshNumbers mesh_;
-  std::vector<ToleranceSource> sources_;
-  std::vector<std::size_t> first_;
   std::size_t dimensions_ = 0;
+  std::vector<Source> sources_;
   std::vector<Slot> slots_;
 };
 

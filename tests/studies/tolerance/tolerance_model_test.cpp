@@ -22,8 +22,8 @@ const NeutralCurve& curve() {
 }
 const double r1 = 14.0, r2 = 14.2; // m z/2 of 0.2 × 140 and 0.2 × 142
 
-ToleranceModel model_of(std::vector<ToleranceSource> sources) {
-  return ToleranceModel::make(gear(), curve(), std::move(sources)).value();
+ToleranceModel model_of(const std::vector<ToleranceSource>& sources) {
+  return ToleranceModel::make(gear(), curve(), sources).value();
 }
 
 std::vector<double> backlash_of(const ToleranceModel& model, std::span<const double> values,
