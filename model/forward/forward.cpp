@@ -306,7 +306,7 @@ private:
     }
     const UnitResponses& responses = *ring_->responses;
     if (flanks_.empty()) {
-      for (const double z : responses.flank_z_mm) {
+      for (const double z : slice_places(responses)) {
         auto pair = FlankPair::make(gear_, face_coordinate(gear_.flexspline, z));
         if (!pair) return pair.failure();
         flanks_.push_back(std::move(pair).value());
@@ -318,7 +318,7 @@ private:
       const auto assembled = assembly(phase);
       if (!assembled) return assembled.failure();
       assembled_poses.emplace(ring_->compliance, **assembled, gear_.flexspline.neutral_radius_mm, phase,
-                              responses.flank_z_mm);
+                              slice_places(responses));
       pose = [&](int sector, double phi, int slice) { return assembled_poses->pose(sector, phi, slice); };
     }
     std::vector<LoadedPoint> points = flank_points(gear_, responses, tables_.at(phase), flanks_, pose);
