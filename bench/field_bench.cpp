@@ -1,5 +1,5 @@
-// Displacement fields of the whole cup under assembly-like loads: sector by sector, and by factorizing the
-// whole ring.
+// Displacement fields of the whole cup under assembly-like loads: sector by sector, and by factorizing
+// the whole ring.
 
 #include "model/flexspline/cyclic_field.hpp"
 #include "model/flexspline/responses.hpp"
@@ -15,7 +15,7 @@ struct SeedCup {
   Gear gear = seed_gear();
   SectorMesh mesh = sector_mesh(gear.flexspline, gear.mesh).value();
   std::vector<Functional> functionals;
-  std::vector<std::vector<RingLoad>> cases{4};
+  std::vector<std::vector<FieldLoad>> cases{4};
   SeedCup() {
     ResponseRequest request;
     request.flexspline = gear.flexspline;
@@ -44,7 +44,7 @@ void field_by_whole_ring(benchmark::State& state) {
     const RingPart ring(cup.mesh);
     Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3 * ring.nodes(), 4);
     for (std::size_t c = 0; c < 4; ++c)
-      for (const RingLoad& load : cup.cases[c])
+      for (const FieldLoad& load : cup.cases[c])
         ring.add_load(*load.functional, load.sector, load.factor, force.col(static_cast<Eigen::Index>(c)));
     benchmark::DoNotOptimize(RingSolver(ring, cup.gear.material).solve(force));
   }

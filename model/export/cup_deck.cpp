@@ -57,15 +57,17 @@ Outcome<std::string> calculix_deck(const Gear& gear, const UnitToothLoad& load) 
   const UnitResponses& layout = cup->plan.layout;
   const int teeth = cup->mesh.sectors, sector = (load.tooth % teeth + teeth) % teeth;
   const int heights = static_cast<int>(layout.flank_radius_mm.size());
+  const int slices = static_cast<int>(layout.flank_z_mm.size());
   const double place = load.flank_height * (heights - 1);
   const int below = std::clamp(static_cast<int>(std::floor(place)), 0, heights - 2);
   std::vector<DeckLoad> loads;
   for (const auto& [height, weight] :
        {std::pair{below, below + 1 - place}, std::pair{below + 1, place - below}}) {
-    if (weight != 0.0)
-      loads.push_back({cup->plan.functionals[static_cast<std::size_t>(layout.flank(
-                           height, 0, load.radial ? UnitResponses::radial : UnitResponses::circumferential))],
-                       sector, weight});
+    for (int slice = 0; slice < slices && weight != 0.0; ++slice)
+      loads.push_back(
+          {cup->plan.functionals[static_cast<std::size_t>(layout.flank(
+               height, slice, load.radial ? UnitResponses::radial : UnitResponses::circumferential))],
+           sector, weight / slices}); // evenly, as contact does without points across the face
   }
   return deck_text(
       gear, *cup, {loads},

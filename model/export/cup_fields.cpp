@@ -49,7 +49,7 @@ Outcome<CupFields> cup_fields(const ContactStates& states) {
   CupFields result;
   result.mesh = std::move(mesh).value();
   const std::vector<Functional> functionals = response_functionals(request, result.mesh).functionals;
-  std::vector<std::vector<RingLoad>> cases;
+  std::vector<std::vector<FieldLoad>> cases;
   for (const ContactForces& state : states.states) {
     result.names.push_back(state.name);
     cases.emplace_back();

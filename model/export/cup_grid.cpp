@@ -26,7 +26,7 @@ UnstructuredGrid ring_grid(const SectorMesh& mesh) {
   grid.points.resize(3 * mesh.ring_nodes());
   std::vector<std::int32_t> node_tooth(mesh.ring_nodes());
   each_ring_node(mesh, [&](int i, int sector, std::size_t at) {
-    const Point p = mesh.node(i, sector);
+    const CartesianPoint p = mesh.node(i, sector);
     grid.points[3 * at] = p.x;
     grid.points[3 * at + 1] = p.y;
     grid.points[3 * at + 2] = p.z;

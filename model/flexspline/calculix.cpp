@@ -30,7 +30,7 @@ void write_set(std::ostream& out, const char* name, const std::vector<int>& node
 void write_calculix_deck(std::ostream& out, const RingPart& part, const Material& material,
                          const std::vector<std::vector<DeckLoad>>& cases, const std::string& title) {
   const SectorMesh& mesh = part.mesh();
-  const std::vector<Point> points = part.points();
+  const std::vector<CartesianPoint> points = part.points();
   const std::vector<double> angles = part.angles();
   double largest = 0.0;
   for (const CylinderPoint& p : mesh.nodes)

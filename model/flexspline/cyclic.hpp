@@ -33,16 +33,4 @@ namespace strainwave {
 std::vector<double> cyclic_responses(const SectorMesh& mesh, const Material& material,
                                      const std::vector<Functional>& functionals, int threads = 0);
 
-/// factor × the unit load of a functional on a sector of the ring.
-struct RingLoad {
-  std::size_t functional = 0;
-  int sector = 0;
-  double factor = 1.0; ///< N (N·mm for rotations)
-};
-
-/// Displacements [mm, Cartesian] of all nodes of the ring under loads, in the order of SectorMesh::ring_node.
-std::vector<Point> ring_displacements(const SectorMesh& mesh, const Material& material,
-                                      const std::vector<Functional>& functionals,
-                                      const std::vector<RingLoad>& loads, int threads = 0);
-
 } // namespace strainwave

@@ -205,7 +205,7 @@ double residual_of(const SectorMesh& mesh, const std::vector<ElementStiffness>& 
 } // namespace
 
 RingField ring_field(const SectorMesh& mesh, const Material& material,
-                     const std::vector<std::vector<RingLoad>>& cases) {
+                     const std::vector<std::vector<FieldLoad>>& cases) {
   openblas_set_num_threads(1);
   const SectorOrder order(mesh);
   std::vector<ElementStiffness> stiffness(mesh.elements.size());
@@ -223,7 +223,7 @@ RingField ring_field(const SectorMesh& mesh, const Material& material,
         force[3 * mesh.ring_node(weights.dof[n] / 3, sector) + weights.dof[n] % 3] +=
             factor * weights.weight[n];
     };
-    for (const RingLoad& load : cases[c]) {
+    for (const FieldLoad& load : cases[c]) {
       add(load.functional->here, load.sector, load.factor);
       add(load.functional->next, (load.sector + 1) % mesh.sectors, load.factor);
     }

@@ -24,7 +24,7 @@
 namespace strainwave {
 
 /// `factor` (N, or N·mm for rotations) times a functional of one sector.
-struct RingLoad {
+struct FieldLoad {
   const Functional* functional = nullptr;
   int sector = 0;
   double factor = 0.0;
@@ -42,7 +42,7 @@ struct RingField {
 
 /// Throws std::logic_error when a matrix is not positive definite, std::bad_alloc without memory.
 RingField ring_field(const SectorMesh& mesh, const Material& material,
-                     const std::vector<std::vector<RingLoad>>& cases);
+                     const std::vector<std::vector<FieldLoad>>& cases);
 
 /// Largest von Mises stress of every element of the ring, MPa: rows sector·(elements of a sector) + element.
 /// Stresses are taken at the 2 × 2 × 2 integration points, where they are most accurate, and carried on to

@@ -98,7 +98,7 @@ double smallest_jacobian(const ElementPoints& points) {
 ElementPoints element_points(const SectorMesh& mesh, int element) {
   ElementPoints points;
   for (int a = 0; a < 20; ++a) {
-    const Point p =
+    const CartesianPoint p =
         mesh.node(mesh.elements[static_cast<std::size_t>(element)][static_cast<std::size_t>(a)], 0);
     points.row(a) << p.x, p.y, p.z;
   }

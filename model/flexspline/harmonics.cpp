@@ -63,6 +63,8 @@ HarmonicSolver::HarmonicSolver(const SectorMesh& mesh, const Material& material,
         odd(p, q) = sign(p) > 0.0 ? back - across : across - back;
       }
     }
+  if (unevenness > 1e-7 * scale && unevenness < 1e-4 * scale) // rounding; an uneven mesh shows more
+    throw NotPositiveStiffness(fmt::format("rounding makes the sector uneven by {:.1e}", unevenness / scale));
   if (unevenness > 1e-7 * scale)
     throw std::logic_error(fmt::format("the sector is not its own mirror image (relative difference {:.1e})",
                                        unevenness / scale));
@@ -82,17 +84,6 @@ HarmonicResponse HarmonicSolver::response(int harmonic) const {
   product.triangularView<Eigen::StrictlyUpper>() = product.transpose();
   const HarmonicResponse outside = hermitian(product), within = inside(wave);
   return {outside.real + within.real, outside.imaginary + within.imaginary};
-}
-
-MatrixXd HarmonicSolver::displacement(int harmonic, const Eigen::VectorXd& real_weights,
-                                      const Eigen::VectorXd& imaginary_weights) const {
-  const Wave wave = wave_of(harmonic);
-  const MatrixXd lower = factor(harmonic, wave);
-  const Columns columns = displaced(lower, forward(lower, wave), wave);
-  MatrixXd mix(2 * count, 2); // (Re + i Im)(w_r + i w_i)
-  mix.col(0) << real_weights, -imaginary_weights;
-  mix.col(1) << imaginary_weights, real_weights;
-  return sector.displacement(columns.force * mix, columns.boundary * mix);
 }
 
 HarmonicSolver::Wave HarmonicSolver::wave_of(int harmonic) const {

@@ -29,13 +29,6 @@ public:
 
   /// G_h of all functionals; any number of threads may call this at once.
   HarmonicResponse response(int harmonic) const;
-  /// Displacements û_h of all unknowns of the sector under Σ weight_a f̂_a: first column real part, second
-  /// imaginary.
-  Eigen::MatrixXd displacement(int harmonic, const Eigen::VectorXd& real_weights,
-                               const Eigen::VectorXd& imaginary_weights) const;
-  /// Unknown of degree of freedom 3·node + component of the sector; −1 fixed.
-  const std::vector<int>& unknown() const { return sector.unknown; }
-
 private:
   struct Wave {
     double cosine, sine; ///< of α = 2πh/N

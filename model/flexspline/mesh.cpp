@@ -236,7 +236,7 @@ double SectorMesh::angle(int i, int sector) const {
   return nodes[static_cast<std::size_t>(i)].angle + pitch_rad() * sector;
 }
 
-Point SectorMesh::node(int i, int sector) const {
+CartesianPoint SectorMesh::node(int i, int sector) const {
   const CylinderPoint& p = nodes[static_cast<std::size_t>(i)];
   const double phi = angle(i, sector);
   return {p.radius * std::cos(phi), p.radius * std::sin(phi), p.z};

@@ -27,7 +27,7 @@
 
 namespace strainwave {
 
-struct Point {
+struct CartesianPoint {
   double x = 0.0, y = 0.0, z = 0.0; ///< mm
 };
 
@@ -69,7 +69,7 @@ struct SectorMesh {
   int ring_node(int i, int sector) const;
   double angle(int i, int sector) const;
   /// Cartesian coordinates of node i of a sector.
-  Point node(int i, int sector) const;
+  CartesianPoint node(int i, int sector) const;
 
   /// Fills ring_index, left_twin from nodes, left, right; every builder of a SectorMesh ends with it.
   void number();

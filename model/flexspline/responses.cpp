@@ -81,6 +81,7 @@ Failure ill_conditioned(const ResponseRequest& r) {
       {"flexspline.diaphragm_thickness_mm", f.diaphragm_thickness_mm, thin(f.diaphragm_thickness_mm)},
       {"flexspline.boss_radius_mm", f.boss_radius_mm, thin(f.boss_radius_mm)},
       {"flexspline.face_width_mm", f.face_width_mm, thin(f.face_width_mm)},
+      {"flexspline.front_clearance_mm", f.front_clearance_mm, f.front_clearance_mm > 0.0 ? thin(f.front_clearance_mm) : 0.0},
       {"flexspline.cup_length_mm", f.cup_length_mm, std::pow(f.cup_length_mm / radius, 3)}};
   const Suspect& worst =
       *std::max_element(std::begin(suspects), std::end(suspects),
@@ -133,6 +134,21 @@ void add_sections(const ResponseRequest& r, const SectorMesh& mesh, ResponseFunc
     result.functionals.push_back({combine(at_outer.circumferential, by, at_inner.circumferential, -by), {}});
     result.functionals.push_back({combine(at_outer.axial, by, at_inner.axial, -by), {}});
   }
+}
+
+/// The mean of both sides of Maxwell and Betti's theorem for each pair: contact takes its displacements and its matrix from
+/// either side, and they must be the same numbers.
+void make_reciprocal(UnitResponses& u) {
+  const auto n = static_cast<std::size_t>(u.count());
+  const auto at = [&](int k, std::size_t a, std::size_t b) -> double& {
+    return u.data[(static_cast<std::size_t>(k) * n + a) * n + b];
+  };
+  for (int k = 0; k <= u.sectors / 2; ++k)
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = 0; b < n; ++b) {
+        double &here = at(k, a, b), &there = at((u.sectors - k) % u.sectors, b, a);
+        here = there = 0.5 * (here + there);
+      }
 }
 
 double largest_reciprocity_error(const UnitResponses& u) {
@@ -226,6 +242,7 @@ Outcome<UnitResponses> unit_responses(const ResponseRequest& request, int thread
     return fine;
   UnitResponses result = std::move(fine).value();
   result.reciprocity_error = largest_reciprocity_error(result);
+  make_reciprocal(result);
   if (request.estimate && request.teeth) {
     const Outcome<UnitResponses> coarse = solve(coarser(request.mesh, request.teeth));
     if (!coarse)

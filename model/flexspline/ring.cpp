@@ -27,8 +27,8 @@ int RingPart::node(int i, int j) const {
   return count * sector.owned() + left_place[at];
 }
 
-std::vector<Point> RingPart::points() const {
-  std::vector<Point> result(static_cast<std::size_t>(nodes()));
+std::vector<CartesianPoint> RingPart::points() const {
+  std::vector<CartesianPoint> result(static_cast<std::size_t>(nodes()));
   for (int j = 0; j < count; ++j)
     for (int i = 0; i < static_cast<int>(sector.nodes.size()); ++i)
       if (sector.ring_index[static_cast<std::size_t>(i)] >= 0 || (j + 1 == count && !closed()))

@@ -29,7 +29,7 @@ public:
   /// 0-based number of node i of sector j, 0 ≤ j < sectors().
   int node(int i, int j) const;
   /// Cartesian coordinates and angles of all nodes in the order of their numbers.
-  std::vector<Point> points() const;
+  std::vector<CartesianPoint> points() const;
   std::vector<double> angles() const;
   /// Supports: 3·node + component in cylindrical frames, ascending.
   std::vector<int> fixed() const;

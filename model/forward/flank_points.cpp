@@ -62,6 +62,16 @@ Pose AssembledPoses::between(double phi_rad, int slice) const { return standing(
 
 double AssembledPoses::radial(double phi_rad, int slice) const { return interpolated(phi_rad, slice).u; }
 
+std::vector<double> slice_places(const UnitResponses& responses) {
+  std::vector<double> z = responses.flank_z_mm;
+  if (z.size() > 1) { // a half hat at either end of the face: its mean is that of a point a third of the step inside
+    const double third = (z[1] - z[0]) / 3.0;
+    z.front() += third;
+    z.back() -= third;
+  }
+  return z;
+}
+
 double face_coordinate(const Flexspline& fs, double z_mm) {
   const double middle = fs.cup_length_mm - fs.front_clearance_mm - 0.5 * fs.face_width_mm;
   return (z_mm - middle) / (0.5 * fs.face_width_mm);
@@ -74,6 +84,7 @@ std::vector<LoadedPoint> flank_points(const Gear& gear, const UnitResponses& res
   const double height = fs.tip_radius_mm - fs.root_radius_mm;
   const double step = 1.0 / (static_cast<double>(responses.flank_radius_mm.size()) - 1.0);
   const bool normal = gear.contact.force_direction == ForceDirection::flank_normal;
+  const std::vector<double> places = slice_places(responses);
   std::vector<LoadedPoint> points;
   for (std::size_t i = 0; i < teeth.tooth.size(); ++i) {
     const bool second = teeth.lobe[i] != 0;
@@ -90,7 +101,7 @@ std::vector<LoadedPoint> flank_points(const Gear& gear, const UnitResponses& res
                           .flank_radius_mm = fs.root_radius_mm + contact.flank_height * height,
                           .pressure_angle_rad = normal ? contact_pressure_angle(gear, pose, contact) : 0.0,
                           .slice = flanks.size() > 1 ? static_cast<int>(slice) : -1,
-                          .z_mm = responses.flank_z_mm[slice]});
+                          .z_mm = places[slice]});
       };
       if (gear.contact.flank_points == 1) { // the source text's model: the point of least gap
         const ToothBacklash contact = pair.drive(pose, space);

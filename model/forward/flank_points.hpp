@@ -50,8 +50,12 @@ private:
   std::vector<std::vector<Displacement>> at_;          ///< [slice][sector − first]
 };
 
-/// The axial places of slices: the hats of the unit responses, or mid face for one.
-double face_coordinate(const Flexspline& flexspline, double z_mm); ///< ζ: −1 diaphragm end, +1 open end of the face
+/// Where along the axis the gap of a slice is taken: the centroid of its hat, because what is compared with the gap is the
+/// mean displacement over the hat. The outer hats are halves, a third of a step inside the face's ends.
+std::vector<double> slice_places(const UnitResponses& responses);
+
+/// ζ of a place along the axis: −1 at the diaphragm's end of the face, +1 at the open end.
+double face_coordinate(const Flexspline& flexspline, double z_mm);
 
 /// All points of the given teeth. `flanks`: one FlankPair for each slice (lead modifications differ).
 std::vector<LoadedPoint> flank_points(const Gear& gear, const UnitResponses& responses, const Backlash& teeth,

@@ -1,6 +1,7 @@
 #include "model/forward/forward.hpp"
 
 #include "model/forward/load_cases.hpp"
+#include "model/forward/contact_forces.hpp"
 #include "model/forward/flank_points.hpp"
 #include "model/forward/inputs.hpp"
 #include "model/forward/stage_memory.hpp"
@@ -305,7 +306,7 @@ private:
     }
     const UnitResponses& responses = *ring_->responses;
     if (flanks_.empty()) {
-      for (const double z : responses.flank_z_mm) {
+      for (const double z : slice_places(responses)) {
         auto pair = FlankPair::make(gear_, face_coordinate(gear_.flexspline, z));
         if (!pair) return pair.failure();
         flanks_.push_back(std::move(pair).value());
@@ -317,7 +318,7 @@ private:
       const auto assembled = assembly(phase);
       if (!assembled) return assembled.failure();
       assembled_poses.emplace(ring_->compliance, **assembled, gear_.flexspline.neutral_radius_mm, phase,
-                              responses.flank_z_mm);
+                              slice_places(responses));
       pose = [&](int sector, double phi, int slice) { return assembled_poses->pose(sector, phi, slice); };
     }
     std::vector<LoadedPoint> points = flank_points(gear_, responses, tables_.at(phase), flanks_, pose);

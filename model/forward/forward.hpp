@@ -8,7 +8,6 @@
 // One ForwardModel may be used by several threads; analyses share what they have computed. Results depend on the gear
 // alone, never on what was analysed before.
 
-#include "model/forward/contact_forces.hpp"
 #include "model/forward/result.hpp"
 
 #include <filesystem>
@@ -16,6 +15,8 @@
 #include <optional>
 
 namespace strainwave {
+
+struct ContactStates; // contact_forces.hpp
 
 struct ForwardOptions {
   bool disk_cache = true;  ///< unit responses on disk, in the XDG cache directory

@@ -1,9 +1,8 @@
 #pragma once
 // Bytes of a journal: a header of 128 bytes, then records.
 //
-//     header   "swjournl" | version | byte order | plan hash | model hash | rows | shard | shards | block
-//     rows | outputs
-//              | origin (who wrote it, 64 bytes of text) | CRC32 of all before it
+//     header   "swjournl" | version | byte order | plan hash | model hash | rows | shard | shards
+//              | block rows | outputs | origin (who wrote it, 64 bytes of text) | CRC32 of all before it
 //     record   length of the payload | kind | CRC32 of (length, kind, payload) | mark | payload
 //
 // Everything is little-endian. A record counts only as a whole: the first one that is cut short or fails its

@@ -6,8 +6,9 @@
 //     /outputs     rows × outputs    attributes names, units
 //     /status      rows              0 ok, 255 missing, else an index into the attribute names
 //     /messages    text of failed rows, /messages_row their rows
-//     /timing      seconds of each block of rows (attribute block_rows); the only data that differ between
-//     runs /config, /version              text;  attributes plan_hash, model_hash, missing_rows at the root
+//     /timing      seconds of each block of rows (attribute block_rows); all that differs between runs
+//     /config, /version
+//     attributes plan_hash, model_hash, missing_rows at the root
 
 #include "studies/journal/row_table.hpp"
 

@@ -15,7 +15,7 @@ namespace {
 void check(const DesignPlan& plan) {
   if (plan.samples == 0 || plan.dimensions < 1)
     throw std::invalid_argument("a design needs at least one sample and one source");
-  if (plan.design == Design::random)
+  if (plan.design == SamplingDesign::random)
     return;
   const auto r = static_cast<std::uint64_t>(std::max(plan.randomisations, 0));
   if (r < 2)
@@ -28,7 +28,7 @@ void check(const DesignPlan& plan) {
   const std::uint64_t per = plan.samples / r;
   if (per > (1ULL << 32))
     throw std::invalid_argument("more than 2^32 samples in one randomisation");
-  if (plan.design == Design::sobol && !std::has_single_bit(per))
+  if (plan.design == SamplingDesign::sobol && !std::has_single_bit(per))
     throw std::invalid_argument(fmt::format(
         "Sobol' designs want a power of two: {} samples in {} randomisations are {} each; take {}",
         plan.samples, r, per, std::bit_ceil(per) * r));
@@ -38,13 +38,13 @@ void check(const DesignPlan& plan) {
 
 SampleDesign::SampleDesign(const DesignPlan& plan) : plan_(plan) {
   check(plan);
-  if (plan.design == Design::random) {
+  if (plan.design == SamplingDesign::random) {
     plan_.randomisations = 1;
     per_ = plan.samples;
     return;
   }
   per_ = plan.samples / static_cast<std::uint64_t>(plan.randomisations);
-  if (plan.design == Design::sobol)
+  if (plan.design == SamplingDesign::sobol)
     for (int r = 0; r < plan.randomisations; ++r)
       sobol_.emplace_back(plan.dimensions, plan.seed, static_cast<std::uint64_t>(r));
 }
@@ -53,7 +53,7 @@ void SampleDesign::points(std::uint64_t first, std::size_t count, std::span<doub
   const auto n = static_cast<std::size_t>(plan_.dimensions);
   if (uniforms.size() != count * n || first + count > plan_.samples)
     throw std::logic_error("SampleDesign::points: asked past the design");
-  if (plan_.design == Design::random) {
+  if (plan_.design == SamplingDesign::random) {
     const RandomKey key{plan_.seed, RandomPurpose::samples};
     for (std::size_t i = 0; i < count; ++i)
       random_uniforms(key, first + i, uniforms.subspan(i * n, n));
@@ -62,7 +62,7 @@ void SampleDesign::points(std::uint64_t first, std::size_t count, std::span<doub
   while (count > 0) { // one randomisation at a time
     const std::uint64_t place = first % per_;
     const std::size_t here = static_cast<std::size_t>(std::min<std::uint64_t>(count, per_ - place));
-    if (plan_.design == Design::sobol)
+    if (plan_.design == SamplingDesign::sobol)
       sobol_[first / per_].points(place, here, uniforms.first(here * n));
     else
       hypercube_points(first, here, uniforms.first(here * n));

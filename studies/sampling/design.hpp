@@ -7,7 +7,7 @@
 //   sobol            scrambled Sobol' points; the number per randomisation is a power of two.
 //
 // The last two are not independent samples, so their intervals come from R independent randomisations: sample
-// k is point k % (N/R) of randomisation k / (N/R); see statistics/replicates.hpp. Random samples have R = 1.
+// k is point k % (N/R) of randomisation k / (N/R); see statistics/interval.hpp. Random samples have R = 1.
 
 #include "studies/sampling/sobol_points.hpp"
 
@@ -18,14 +18,14 @@
 
 namespace strainwave {
 
-enum class Design { random, latin_hypercube, sobol };
+enum class SamplingDesign { random, latin_hypercube, sobol };
 
 struct DesignPlan {
-  Design design = Design::random;
+  SamplingDesign design = SamplingDesign::random;
   std::uint64_t seed = 1;
   std::uint64_t samples = 0; ///< N
   int dimensions = 0;
-  int randomisations = 16; ///< R; does not matter for Design::random
+  int randomisations = 16; ///< R; does not matter for SamplingDesign::random
 };
 
 class SampleDesign {

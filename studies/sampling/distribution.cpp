@@ -39,7 +39,7 @@ double triangular_quantile(const Triangular& t, double u) {
                    : t.upper - std::sqrt((1.0 - u) * width * (t.upper - t.mode));
 }
 
-double table_quantile(const Table& t, double u) {
+double table_quantile(const Tabulated& t, double u) {
   const auto above = std::upper_bound(t.cumulative.begin() + 1, t.cumulative.end() - 1, u);
   const auto i = static_cast<std::size_t>(above - t.cumulative.begin());
   const double share = (u - t.cumulative[i - 1]) / (t.cumulative[i] - t.cumulative[i - 1]);
@@ -85,7 +85,7 @@ void check_distribution(const Distribution& distribution) {
             std_positive(d.std);
             demand(d.mean > 0.0, fmt::format("the mean of a lognormal value must be above 0, is {}", d.mean));
           },
-          [&](const Table& d) {
+          [&](const Tabulated& d) {
             demand(d.value.size() >= 2 && d.value.size() == d.cumulative.size(),
                    fmt::format("a table needs as many values as cumulative shares, at least 2; has {} and {}",
                                d.value.size(), d.cumulative.size()));
@@ -129,7 +129,7 @@ double Quantile::operator()(double u) const {
                           },
                           [&](const Uniform& d) { return d.lower + u * (d.upper - d.lower); },
                           [&](const Triangular& d) { return triangular_quantile(d, u); },
-                          [&](const Table& d) { return table_quantile(d, u); },
+                          [&](const Tabulated& d) { return table_quantile(d, u); },
                           [&](const auto&) { return 0.0; }},
                     distribution_);
 }

@@ -37,12 +37,12 @@ struct Lognormal {
 };
 /// A measured distribution: cumulative[i] is the share of values at or below value[i], ascending from 0 to 1;
 /// in between it is linear.
-struct Table {
+struct Tabulated {
   std::vector<double> value;
   std::vector<double> cumulative;
 };
 
-using Distribution = std::variant<Normal, TruncatedNormal, Uniform, Triangular, Lognormal, Table>;
+using Distribution = std::variant<Normal, TruncatedNormal, Uniform, Triangular, Lognormal, Tabulated>;
 
 /// Throws std::invalid_argument with one sentence if the numbers make no distribution.
 void check_distribution(const Distribution&);

@@ -38,7 +38,7 @@ Moments moments(const TruncatedNormal& d) {
   return {d.mean + d.std * shift, d.std * std::sqrt(variance)};
 }
 /// Uniform pieces.
-Moments moments(const Table& d) {
+Moments moments(const Tabulated& d) {
   double mean = 0.0, square = 0.0;
   for (std::size_t i = 1; i < d.value.size(); ++i) {
     const double share = d.cumulative[i] - d.cumulative[i - 1];

@@ -9,17 +9,17 @@
 
 namespace strainwave {
 
-SaltelliPoints::SaltelliPoints(Design design, std::uint64_t seed, int inputs, std::uint64_t base)
+SaltelliPoints::SaltelliPoints(SamplingDesign design, std::uint64_t seed, int inputs, std::uint64_t base)
     : inputs_(static_cast<std::size_t>(inputs)), base_(base), seed_(seed) {
   if (inputs < 1)
     throw std::invalid_argument("a sensitivity study needs at least one source");
-  if (design == Design::latin_hypercube)
+  if (design == SamplingDesign::latin_hypercube)
     throw std::invalid_argument("Sobol' indices are estimated from design = \"sobol\" or \"random\"");
   if (base < 2 || !std::has_single_bit(base) || base > (1ULL << 32))
     throw std::invalid_argument(fmt::format("Sobol' indices want a power of two of blocks, got {}; take {}",
                                             base,
                                             std::bit_ceil(std::clamp<std::uint64_t>(base, 2, 1ULL << 32))));
-  if (design == Design::sobol)
+  if (design == SamplingDesign::sobol)
     sobol_.emplace(2 * inputs, seed, 0);
 }
 

@@ -14,8 +14,9 @@ namespace strainwave {
 
 class SaltelliPoints {
 public:
-  /// Design::sobol or Design::random. Throws std::invalid_argument: base no power of two, other designs.
-  SaltelliPoints(Design, std::uint64_t seed, int inputs, std::uint64_t base);
+  /// SamplingDesign::sobol or SamplingDesign::random. Throws std::invalid_argument: base no power of two,
+  /// other designs.
+  SaltelliPoints(SamplingDesign, std::uint64_t seed, int inputs, std::uint64_t base);
 
   std::uint64_t rows() const { return base_ * (inputs_ + 2); }
   std::uint64_t base() const { return base_; }

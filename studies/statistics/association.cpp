@@ -13,7 +13,7 @@ constexpr double no_correlation = 2.0;
 
 /// More than rounding in the mean leaves behind?
 bool varies(double square_sum, double mean, double n) {
-  const double rounding = 1e-15 * mean;
+  const double rounding = 2.3e-16 * n * mean;
   return square_sum > n * rounding * rounding;
 }
 

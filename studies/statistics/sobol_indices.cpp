@@ -116,12 +116,13 @@ SobolIndices sobol_indices(std::span<const double> values, std::span<const std::
   const std::vector<double> spread = bootstrap_spread(terms, options);
 
   SobolIndices indices{good.size(), blocks - good.size(), result[0], {}};
-  const auto estimate = [&](std::size_t j) {
-    const double half = normal_975 * spread[j];
-    return Estimate{result[j], {result[j] - half, result[j] + half}};
-  };
-  for (std::size_t i = 0; i < inputs; ++i)
-    indices.inputs.push_back({estimate(1 + 2 * i), estimate(2 + 2 * i)});
+  for (std::size_t i = 0; i < inputs; ++i) {
+    const std::size_t f = 1 + 2 * i, t = 2 + 2 * i;
+    const double half = normal_975 * spread[f];
+    const double factor = result[t] > 0.0 ? std::exp(normal_975 * spread[t] / result[t]) : 1.0;
+    indices.inputs.push_back({{result[f], {result[f] - half, result[f] + half}},
+                              {result[t], {result[t] / factor, result[t] * factor}}});
+  }
   return indices;
 }
 

@@ -5,13 +5,16 @@
 // were known. With the blocks of SaltelliPoints (values a = f(A), b = f(B), c_i = f(A with coordinate i of
 // B), centred by their common mean):
 //     V       variance of all a and b
-//     first   mean of b (c_i − a) / V            (Saltelli et al., Comput. Phys. Commun. 181, 2010, table 2
-//     (b)) total   mean of (a − c_i)² / 2 V           (Jansen, Comput. Phys. Commun. 117, 1999)
+//     first   mean of b (c_i − a) / V     Saltelli et al., Comput. Phys. Commun. 181 (2010), table 2 (b)
+//     total   mean of (a − c_i)² / 2 V    Jansen, Comput. Phys. Commun. 117 (1999)
+//
 // Intervals: bootstrap over blocks (Archer, Saltelli, Sobol', J. Stat. Comput. Simul. 58, 1997), estimate
-// ± 1.96 times the spread of the resampled estimates. For blocks from scrambled Sobol' points they are on the
-// safe side: resampling cannot see that such points err less than random ones. A block with a failed row is
-// dropped whole and counted: the rest is then no longer a sample of the sources but of the sources where the
-// model works.
+// ± 1.96 times the spread of the resampled estimates; for totals (means of squares, skewed) the same on the
+// logarithm. For blocks from scrambled Sobol' points they are on the safe side: resampling cannot see that
+// such points err less than random ones.
+//
+// A block with a failed row is dropped whole and counted: the rest is then no longer a sample of the sources
+// but of the sources where the model works.
 
 #include "studies/statistics/interval.hpp"
 

@@ -3,8 +3,8 @@
 //
 // The rule is looked at after fixed numbers of rows (the boundaries), in index order, so that threads, shards
 // and restarts do not change where a study ends. Looking more than once makes the final interval a little
-// optimistic; boundaries that double keep the looks few. For Design::random only: the intervals of other
-// designs need all their samples.
+// optimistic; boundaries that double keep the looks few. For SamplingDesign::random only: the intervals of
+// other designs need all their samples.
 
 #include "studies/statistics/interval.hpp"
 

@@ -3,11 +3,11 @@
 // histogram.
 //
 // Two families of intervals:
-//   independent samples (Design::random)   mean: Student's t; standard deviation: from the fourth moment, on
-//   the
-//       logarithm, so that no normal distribution is assumed; quantiles: order statistics; shares: Wilson.
-//   randomised designs (Latin hypercube, Sobol')   every number from the spread over the independent
-//   randomisations.
+//   independent samples (SamplingDesign::random)
+//       mean: Student's t; standard deviation: from the fourth moment, on the logarithm, so that no normal
+//       distribution is assumed; quantiles: order statistics; shares: Wilson.
+//   randomised designs (Latin hypercube, Sobol')
+//       every number from its spread over the independent randomisations.
 // Values are in index order, so sums are the same for any number of threads.
 
 #include "studies/statistics/interval.hpp"

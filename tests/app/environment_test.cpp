@@ -180,4 +180,24 @@ TEST_F(Environment, MeshThatDoesNotFitIsRefusedBeforeItIsMade) {
   EXPECT_NE(end.err.find("GB are available; take smaller counts in [mesh]"), std::string::npos) << end.err;
 }
 
+TEST_F(Environment, TheDocumentShowsOnlyWhatIsSaid) {
+  fs::create_directory(folder / "gears");
+  fs::create_directory(folder / "results");
+  std::string said;
+  for (const char* arguments : {"analyze gaer.toml", "analyze gears", "analyze gear.toml -o nowhere/out.h5",
+                                "analyze gear.toml -o results"})
+    said += run(arguments).err;
+  std::istringstream page(file_text(STRAINWAVE_SOURCE "/docs/errors.md"));
+  int shown = 0;
+  bool here = false;
+  for (std::string line; std::getline(page, line);) {
+    here = here || line == "## Files, disk and memory";
+    if (!here || !line.starts_with("strainwave: "))
+      continue;
+    ++shown;
+    EXPECT_NE(said.find(line + "\n"), std::string::npos) << line;
+  }
+  EXPECT_EQ(shown, 4);
+}
+
 } // namespace

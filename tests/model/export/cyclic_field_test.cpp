@@ -3,6 +3,8 @@
 #include "model/flexspline/cyclic_field.hpp"
 
 #include "../flexspline/bodies.hpp"
+#include "model/export/cup_grid.hpp"
+#include "model/flexspline/cyclic.hpp"
 #include "model/flexspline/ring.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +23,7 @@ struct Cup {
     return plan.functionals[static_cast<std::size_t>(plan.layout.wall(station, 1, direction))];
   }
   /// Loads without any symmetry; one with a part on the next sector, across the ring's seam too.
-  std::vector<std::vector<RingLoad>> cases() const {
+  std::vector<std::vector<FieldLoad>> cases() const {
     return {{{&flank(2, 0), 0, 1.0}, {&flank(1, 1), 7, -0.4}, {&wall(1, 1), 19, 2.0}},
             {{&wall(0, 0), 3, 1.0}, {&wall(1, 0), 4, 0.3}}};
   }
@@ -29,12 +31,12 @@ struct Cup {
 
 TEST(CyclicField, equals_the_solution_of_the_whole_ring) {
   const Cup cup;
-  const std::vector<std::vector<RingLoad>> cases = cup.cases();
+  const std::vector<std::vector<FieldLoad>> cases = cup.cases();
   const RingField field = ring_field(cup.mesh, cup.request.material, cases);
   const RingPart ring(cup.mesh);
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3 * ring.nodes(), 2);
   for (std::size_t c = 0; c < 2; ++c)
-    for (const RingLoad& load : cases[c])
+    for (const FieldLoad& load : cases[c])
       ring.add_load(*load.functional, load.sector, load.factor, force.col(static_cast<Eigen::Index>(c)));
   const Eigen::MatrixXd full = RingSolver(ring, cup.request.material).solve(force);
   ASSERT_EQ(field.displacement.rows(), full.rows());
@@ -53,7 +55,7 @@ TEST(CyclicField, odd_number_of_sectors_is_solved_too) {
   cup.request.flexspline.teeth = 19;
   cup.mesh = sector_mesh(cup.request.flexspline, cup.request.mesh).value();
   cup.plan = response_functionals(cup.request, cup.mesh);
-  const std::vector<std::vector<RingLoad>> cases = {
+  const std::vector<std::vector<FieldLoad>> cases = {
       {{&cup.flank(0, 0), 18, 1.0}, {&cup.wall(1, 1), 18, 1.0}}};
   EXPECT_LT(ring_field(cup.mesh, cup.request.material, cases).residual, 1e-8);
 }
@@ -66,7 +68,7 @@ TEST(LargestVonMises, uniform_strain_gives_its_closed_form_in_every_element) {
   Eigen::MatrixXd u(3 * static_cast<Eigen::Index>(cup.mesh.ring_nodes()), 1);
   for (int j = 0; j < cup.mesh.sectors; ++j)
     for (int i = 0; i < static_cast<int>(cup.mesh.nodes.size()); ++i) {
-      const Point p = cup.mesh.node(i, j);
+      const CartesianPoint p = cup.mesh.node(i, j);
       const double phi = cup.mesh.angle(i, j), ux = s / e * p.x, uy = -nu * s / e * p.y;
       const Eigen::Index at = 3 * cup.mesh.ring_node(i, j);
       u(at, 0) = std::cos(phi) * ux + std::sin(phi) * uy;

@@ -67,11 +67,11 @@ TEST(Deck, unit_load_turns_with_its_tooth_and_has_its_lever_arm) {
     const auto deck = calculix_deck(gear, {.tooth = 5, .flank_height = height}); // a quarter turn: 20 teeth
     ASSERT_TRUE(deck.ok());
     const RingPart ring(mesh);
-    const std::vector<Point> points = ring.points();
+    const std::vector<CartesianPoint> points = ring.points();
     double sum[3] = {}, torque = 0.0;
     for (const NodalLoad& load : loads_of(*deck)) {
       sum[load.component - 1] += load.force;
-      const Point& p = points[static_cast<std::size_t>(load.node - 1)];
+      const CartesianPoint& p = points[static_cast<std::size_t>(load.node - 1)];
       torque += load.force * (load.component == 1 ? -p.y : load.component == 2 ? p.x : 0.0);
     }
     // Resultant 1 N along the circumferential direction of the flank points, about 90° + half a tooth.
@@ -122,7 +122,7 @@ TEST(Deck, calculix_gives_the_fields_of_this_program) {
   const auto steps = read_calculix_displacements(printed, ring.nodes());
   ASSERT_EQ(steps.size(), 1u);
 
-  std::vector<RingLoad> loads;
+  std::vector<FieldLoad> loads;
   for (const FunctionalForce& force : state.forces)
     loads.push_back(
         {&plan.functionals[static_cast<std::size_t>(force.functional)], force.sector, force.force_n});

@@ -121,9 +121,9 @@ TEST(SectorMesh, an_open_part_has_its_own_last_plane) {
   const RingPart part(mesh, 3);
   EXPECT_FALSE(part.closed());
   EXPECT_EQ(part.nodes(), 3 * mesh.owned() + static_cast<int>(mesh.right.size()));
-  const std::vector<Point> points = part.points();
+  const std::vector<CartesianPoint> points = part.points();
   for (const int right : mesh.right) {
-    const Point expected = mesh.node(right, 2), found = points[static_cast<std::size_t>(part.node(right, 2))];
+    const CartesianPoint expected = mesh.node(right, 2), found = points[static_cast<std::size_t>(part.node(right, 2))];
     EXPECT_NEAR(found.x, expected.x, 1e-12);
     EXPECT_NEAR(found.y, expected.y, 1e-12);
   }

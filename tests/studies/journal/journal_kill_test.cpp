@@ -13,11 +13,11 @@ namespace strainwave {
 namespace {
 
 /// Blocks that the child has handed to a finished sync(), seen by the parent.
-struct Progress {
+struct Synced {
   volatile std::uint64_t synced_blocks;
 };
 
-[[noreturn]] void write_until_killed(const std::string& path, std::uint64_t from, Progress& progress) {
+[[noreturn]] void write_until_killed(const std::string& path, std::uint64_t from, Synced& progress) {
   JournalHeader header = test_header();
   header.rows = 100000000;
   JournalWriter journal(path, header, ignore_records(), std::chrono::milliseconds(2));
@@ -33,8 +33,8 @@ struct Progress {
 void kill_writers(int times, std::uint64_t seed) {
   const Folder folder;
   const std::string path = folder.file("j");
-  auto* progress = static_cast<Progress*>(
-      ::mmap(nullptr, sizeof(Progress), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+  auto* progress = static_cast<Synced*>(
+      ::mmap(nullptr, sizeof(Synced), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
   std::uint64_t blocks = 0;
   for (int i = 0; i < times; ++i) {
     progress->synced_blocks = blocks;
@@ -59,7 +59,7 @@ void kill_writers(int times, std::uint64_t seed) {
     if (::testing::Test::HasFatalFailure())
       break;
   }
-  ::munmap(progress, sizeof(Progress));
+  ::munmap(progress, sizeof(Synced));
   EXPECT_GT(blocks, 0U);
 }
 

@@ -14,7 +14,7 @@ std::vector<double> all_points(const SampleDesign& design) {
   return u;
 }
 
-class EveryDesign : public testing::TestWithParam<Design> {};
+class EveryDesign : public testing::TestWithParam<SamplingDesign> {};
 
 TEST_P(EveryDesign, GivesTheSameBitsHoweverItIsCut) {
   const SampleDesign design(
@@ -38,9 +38,10 @@ TEST_P(EveryDesign, AnotherSeedIsAnotherDesign) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Designs, EveryDesign,
-                         testing::Values(Design::random, Design::latin_hypercube, Design::sobol));
+                         testing::Values(SamplingDesign::random, SamplingDesign::latin_hypercube,
+                                         SamplingDesign::sobol));
 
-class Stratified : public testing::TestWithParam<Design> {};
+class Stratified : public testing::TestWithParam<SamplingDesign> {};
 
 // A net in base 2 is a Latin hypercube as well: each of the n intervals is visited once by every coordinate.
 TEST_P(Stratified, EveryIntervalIsVisitedOnceInEveryRandomisation) {
@@ -55,7 +56,8 @@ TEST_P(Stratified, EveryIntervalIsVisitedOnceInEveryRandomisation) {
       EXPECT_EQ(intervals.size(), 128U) << r << " " << d;
     }
 }
-INSTANTIATE_TEST_SUITE_P(Designs, Stratified, testing::Values(Design::latin_hypercube, Design::sobol));
+INSTANTIATE_TEST_SUITE_P(Designs, Stratified,
+                         testing::Values(SamplingDesign::latin_hypercube, SamplingDesign::sobol));
 
 // First lines of Joe and Kuo's file new-joe-kuo-6.21201: degree s, inner coefficients a of the primitive
 // polynomial, first numbers m; the rest by the recurrence of Bratley and Fox (ACM TOMS 14, 1988).
@@ -132,14 +134,15 @@ TEST(SampleDesign, RefusesSizesThatTheDesignCannotHave) {
     }
     return "accepted";
   };
-  EXPECT_EQ(message({.design = Design::sobol, .samples = 1600, .dimensions = 2}),
+  EXPECT_EQ(message({.design = SamplingDesign::sobol, .samples = 1600, .dimensions = 2}),
             "Sobol' designs want a power of two: 1600 samples in 16 randomisations are 100 each; take 2048");
-  EXPECT_EQ(message({.design = Design::latin_hypercube, .samples = 100, .dimensions = 2}),
+  EXPECT_EQ(message({.design = SamplingDesign::latin_hypercube, .samples = 100, .dimensions = 2}),
             "100 samples cannot be cut into 16 equal randomisations; take 112");
   EXPECT_EQ(
-      message({.design = Design::latin_hypercube, .samples = 16, .dimensions = 2, .randomisations = 1}),
+      message(
+          {.design = SamplingDesign::latin_hypercube, .samples = 16, .dimensions = 2, .randomisations = 1}),
       "intervals of this design come from its randomisations: at least 2 are needed (16 are usual), got 1");
-  EXPECT_EQ(message({.design = Design::sobol, .samples = 1024, .dimensions = 4000}),
+  EXPECT_EQ(message({.design = SamplingDesign::sobol, .samples = 1024, .dimensions = 4000}),
             "Sobol' points exist for 1 to 3667 dimensions here, asked for 4000; take design = \"random\"");
 }
 

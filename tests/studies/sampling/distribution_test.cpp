@@ -56,7 +56,7 @@ TEST(Distribution, QuantilesAreThoseOfOpenTurns) {
 TEST(Distribution, MomentsAreThoseOfTheQuantile) {
   const Distribution all[] = {Normal{1.5, 0.4},    TruncatedNormal{0.3, 1.0, -1.0, 2.0},
                               Uniform{-2.0, 5.0},  Triangular{0.0, 0.0, 3.0},
-                              Lognormal{2.0, 0.5}, Table{{0.0, 1.0, 4.0}, {0.0, 0.25, 1.0}}};
+                              Lognormal{2.0, 0.5}, Tabulated{{0.0, 1.0, 4.0}, {0.0, 0.25, 1.0}}};
   for (const Distribution& d : all) {
     const Quantile quantile(d);
     constexpr int n = 200000;
@@ -84,7 +84,8 @@ TEST(Distribution, RefusesNumbersThatMakeNone) {
   EXPECT_EQ(message(Normal{0.0, -1.0}), "the standard deviation must be above 0, is -1");
   EXPECT_EQ(message(Uniform{2.0, 1.0}), "lower must be below upper, are 2 and 1");
   EXPECT_EQ(message(Triangular{0.0, 3.0, 1.0}), "the mode must lie between 0 and 1, is 3");
-  EXPECT_EQ(message(Table{{0.0, 1.0}, {0.0, 0.9}}), "the cumulative shares of a table must run from 0 to 1");
+  EXPECT_EQ(message(Tabulated{{0.0, 1.0}, {0.0, 0.9}}),
+            "the cumulative shares of a table must run from 0 to 1");
   EXPECT_EQ(message(TruncatedNormal{0.0, 1.0, 7.0, 9.0}),
             "the limits 7 and 9 keep only 1.3e-12 of the distribution");
   EXPECT_EQ(message(Normal{0.0, std::nan("")}), "numbers of a distribution must be finite");

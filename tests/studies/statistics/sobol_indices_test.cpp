@@ -71,11 +71,12 @@ void expect_close(const SobolIndices& found, const Known& known, double toleranc
 }
 
 TEST(SobolIndices, IshigamiAgreesWithItsClosedForm) {
-  expect_close(indices_of(SaltelliPoints(Design::sobol, 1, 3, 8192), ishigami), ishigami_indices(), 0.005);
+  expect_close(indices_of(SaltelliPoints(SamplingDesign::sobol, 1, 3, 8192), ishigami), ishigami_indices(),
+               0.005);
 }
 
 TEST(SobolIndices, TheGFunctionAgreesWithItsClosedForm) {
-  expect_close(indices_of(SaltelliPoints(Design::sobol, 1, 5, 8192), g_function), g_indices(), 0.005);
+  expect_close(indices_of(SaltelliPoints(SamplingDesign::sobol, 1, 5, 8192), g_function), g_indices(), 0.005);
 }
 
 // y = Σ a_i z_i: first and total index are both a_i²/Σ a².
@@ -85,7 +86,7 @@ TEST(SobolIndices, ALinearGaussianCaseHasNoInteractions) {
     return a[0] * normal_quantile(u[0]) + a[1] * normal_quantile(u[1]) + a[2] * normal_quantile(u[2]);
   };
   const Known known{{1.0 / 5.25, 4.0 / 5.25, 0.25 / 5.25}, {1.0 / 5.25, 4.0 / 5.25, 0.25 / 5.25}};
-  expect_close(indices_of(SaltelliPoints(Design::sobol, 1, 3, 8192), f), known, 0.01);
+  expect_close(indices_of(SaltelliPoints(SamplingDesign::sobol, 1, 3, 8192), f), known, 0.01);
 }
 
 // JansenSensitivityAlgorithm of OpenTURNS 1.20 on 64 blocks of the lattice u_j = frac((j + 1) g): its totals
@@ -115,7 +116,7 @@ TEST(SobolIndices, TotalsAreThoseOfOpenTurns) {
 }
 
 TEST(SobolIndices, ABlockWithAFailedRowIsDroppedWholeAndCounted) {
-  const SaltelliPoints points(Design::sobol, 1, 3, 64);
+  const SaltelliPoints points(SamplingDesign::sobol, 1, 3, 64);
   std::vector<double> y = evaluate(points, ishigami);
   std::vector<std::uint8_t> status(y.size(), 0);
   status[7] = 3; // block 1
@@ -136,7 +137,7 @@ TEST(SobolIndices, ABlockWithAFailedRowIsDroppedWholeAndCounted) {
 }
 
 TEST(SobolIndices, NestedSizesAreBeginningsOfTheWhole) {
-  const SaltelliPoints small(Design::sobol, 1, 3, 128), large(Design::sobol, 1, 3, 512);
+  const SaltelliPoints small(SamplingDesign::sobol, 1, 3, 128), large(SamplingDesign::sobol, 1, 3, 512);
   const std::vector<double> y = evaluate(large, ishigami);
   const auto nested = nested_sobol_indices(y, std::vector<std::uint8_t>(y.size(), 0), 3, 64);
   ASSERT_EQ(nested.size(), 4U);
@@ -156,7 +157,7 @@ TEST(SobolIndices, TooFewWholeBlocksAreRefused) {
 
 TEST(SaltelliPoints, OnlyPowersOfTwo) {
   try {
-    const SaltelliPoints points(Design::sobol, 1, 3, 1000);
+    const SaltelliPoints points(SamplingDesign::sobol, 1, 3, 1000);
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(), "Sobol' indices want a power of two of blocks, got 1000; take 1024");
@@ -167,8 +168,8 @@ void cover(const Function& f, const Known& known, int inputs, int trials, double
   const std::size_t n = known.first.size();
   Coverage coverage(2 * n);
   for (int t = 0; t < trials; ++t) {
-    const SobolIndices found =
-        indices_of(SaltelliPoints(Design::random, static_cast<std::uint64_t>(t) + 1, inputs, 1024), f);
+    const SobolIndices found = indices_of(
+        SaltelliPoints(SamplingDesign::random, static_cast<std::uint64_t>(t) + 1, inputs, 1024), f);
     for (std::size_t i = 0; i < n; ++i) {
       coverage.add(i, found.inputs[i].first, known.first[i]);
       coverage.add(n + i, found.inputs[i].total, known.total[i]);

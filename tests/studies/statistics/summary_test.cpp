@@ -94,7 +94,7 @@ TEST(SummaryCoverageNightly, IndependentSamplesOfALinearGaussianCase) {
   cover_random(1000, 0.02);
 }
 
-void cover_randomised(Design kind, int trials, double tolerance) {
+void cover_randomised(SamplingDesign kind, int trials, double tolerance) {
   Coverage coverage(4);
   for (int t = 0; t < trials; ++t) {
     constexpr std::size_t n = 2048, r = 16;
@@ -115,7 +115,8 @@ void cover_randomised(Design kind, int trials, double tolerance) {
     // Standard deviation, median and share of the slightly bent case: from 2^20 Sobol' points (error below
     // 1e-4 of the spread).
     static const Summary truth = [] {
-      const SampleDesign fine({.design = Design::sobol, .seed = 5, .samples = 1 << 20, .dimensions = 3});
+      const SampleDesign fine(
+          {.design = SamplingDesign::sobol, .seed = 5, .samples = 1 << 20, .dimensions = 3});
       std::vector<double> v(3 << 20), z(1 << 20);
       fine.points(0, 1 << 20, v);
       for (std::size_t i = 0; i < z.size(); ++i)
@@ -130,16 +131,16 @@ void cover_randomised(Design kind, int trials, double tolerance) {
 }
 
 TEST(SummaryCoverage, LatinHypercubesFromTheirRandomisations) {
-  cover_randomised(Design::latin_hypercube, 150, coverage_tolerance(150));
+  cover_randomised(SamplingDesign::latin_hypercube, 150, coverage_tolerance(150));
 }
 TEST(SummaryCoverage, SobolDesignsFromTheirRandomisations) {
-  cover_randomised(Design::sobol, 150, coverage_tolerance(150));
+  cover_randomised(SamplingDesign::sobol, 150, coverage_tolerance(150));
 }
 TEST(SummaryCoverageNightly, LatinHypercubesFromTheirRandomisations) {
-  cover_randomised(Design::latin_hypercube, 1000, 0.02);
+  cover_randomised(SamplingDesign::latin_hypercube, 1000, 0.02);
 }
 TEST(SummaryCoverageNightly, SobolDesignsFromTheirRandomisations) {
-  cover_randomised(Design::sobol, 1000, 0.02);
+  cover_randomised(SamplingDesign::sobol, 1000, 0.02);
 }
 
 } // namespace
