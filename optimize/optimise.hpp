@@ -1,11 +1,11 @@
 #pragma once
-// A whole optimisation: several searches, the best of them confirmed and judged.
+// A whole optimisation: searches, the best of them confirmed and judged.
 //
-//     starts → searches (in parallel) → best → confirmation → verdict
+//     global_then_polish, or starts → searches side by side     → best → confirmation → verdict
 //
-// Three quarters of the budget go to the searches, in equal shares; the rest confirms. Each search depends on
-// its start and its share alone, and the best is taken in the order of the starts, so the result is the same
-// for any number of threads.
+// Three quarters of the budget go to the searches; the rest confirms. Each search depends on its start and
+// its share alone, and the best is taken in the order of the starts, so the result is the same for any number
+// of threads.
 
 #include "optimize/verdict.hpp"
 
@@ -18,10 +18,11 @@ inline constexpr std::string_view global_method = "global_then_polish";
 std::span<const std::string_view> method_names();
 
 struct OptimiseSettings {
-  SearchSettings search;                  ///< budget: of all searches together
-  std::size_t starts = 1;                 ///< searches side by side, or valleys to polish
-  int threads = 1;                        ///< 0: all cores
-  std::vector<std::vector<double>> known = {}; ///< scaled designs that compete as they are: the unmodified gear
+  SearchSettings search;  ///< budget: of all searches together
+  std::size_t starts = 1; ///< searches side by side, or valleys to polish
+  int threads = 1;        ///< 0: all cores
+  std::vector<std::vector<double>> known =
+      {}; ///< scaled designs that compete as they are: the unmodified gear
 };
 
 struct OptimiseResult {

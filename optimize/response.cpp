@@ -34,6 +34,14 @@ double force_ratio(const LoadResult& load) {
   return load.engaged_count > 0 ? load.peak_force_n * load.engaged_count / sum : none;
 }
 
+/// Over the phases of one pitch.
+double largest_rotation(const LoadResult& load) {
+  double rotation = load.rotation_rad;
+  for (const PhaseForces& phase : load.phases)
+    rotation = std::max(rotation, phase.rotation_rad);
+  return rotation;
+}
+
 constexpr bool largest = true;
 constexpr bool least = false;
 
@@ -63,8 +71,8 @@ const std::array rows{
           return worst(r, least,
                        [](const LoadResult& load) { return static_cast<double>(load.engaged_count); });
         }},
-    Row{{"rotation_rad", "rad", "rotation of the circular spline under load, take-up included"},
-        of_load<&LoadResult::rotation_rad, largest>},
+    Row{{"rotation_rad", "rad", "largest rotation of the circular spline under load, take-up included"},
+        [](std::span<const ForwardResult> r) { return worst(r, largest, largest_rotation); }},
     Row{{"torque_nm", "N·m", "torque on the circular spline"}, of_load<&LoadResult::torque_nm, least>},
     Row{{"min_backlash_um", "µm",
          "least initial backlash over continuous φ, both flanks alike; negative: interference"},

@@ -1,7 +1,7 @@
 #pragma once
 // Where several searches begin: the first at the study's start, the others spread over the box by a sequence
 // without gaps and clusters (R_d of M. Roberts: steps by powers of 1/g with g^(d+1) = g + 1), shifted by the
-// seed. SearchPoint k depends on k, the seed and the number of variables alone, so a longer list begins with
+// seed. Point k depends on k, the seed and the number of variables alone, so a longer list begins with
 // a shorter one.
 
 #include "optimize/design.hpp"

@@ -2,10 +2,10 @@
 // The folder of a study. Every file is written beside its place and renamed into it, so a reader never sees
 // half of one.
 //
-//   plan.json        what is to be done: the resolved study, the gear, hash; written before the first
-//   evaluation results.h5       every evaluation: /inputs (row by row), /outputs, /status, /messages,
-//   /timing, /config, /version result.json      what `study run --json` prints best.toml        the optimised
-//   gear; `analyze` and `check` read it
+//   plan.json     what is to be done: the resolved study, the gear, hash; written before the first evaluation
+//   results.h5    every evaluation, see results_file.hpp
+//   result.json   what `study run --json` prints
+//   best.toml     the optimised gear; `analyze` and `check` read it
 
 #include "studies/optimisation.hpp"
 
