@@ -62,6 +62,19 @@ void new_deformation_linear(benchmark::State& state) {
 }
 BENCHMARK(new_deformation_linear)->Unit(benchmark::kMillisecond);
 
+// 28 teeth × 6 heights × 5 slices: gaps, selection and contact solve are new; assembly and finite elements are not.
+void whole_flank(benchmark::State& state) {
+  Gear gear = one_load(7.0);
+  gear.contact.flank_points = 6;
+  gear.contact.face_slices = 5;
+  double relief = 0.0;
+  for (auto _ : state) {
+    gear.flank_modification.flexspline.tip_relief_um = relief += 1e-3;
+    benchmark::DoNotOptimize(warm_model().analyze(gear));
+  }
+}
+BENCHMARK(whole_flank)->Unit(benchmark::kMillisecond);
+
 void backlash_only(benchmark::State& state) {
   Gear gear = one_load(7.0);
   for (auto _ : state) benchmark::DoNotOptimize(warm_model().analyze(gear, Want::backlash));
