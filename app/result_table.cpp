@@ -123,8 +123,10 @@ std::string result_table(const ForwardResult& result) {
   if (!result.load.empty()) loads(result.load, out);
   if (!result.load.empty()) tooth_forces(result.load.back(), out);
   if (const auto& s = result.stiffness) {
-    fmt::format_to(out, "\nStiffness       {:.1f} N·m/rad (secant at rated torque), wind-up {:.3f}′, take-up {:.3f}′, lost motion {:.3f}′\n",
-                   s->secant_nm_per_rad, arcmin_per_rad * s->wind_up_rad, arcmin_per_rad * s->take_up_rad, s->lost_motion_arcmin);
+    fmt::format_to(out, "\nStiffness       {:.1f} N·m/rad (secant at rated torque), wind-up {:.3f}′, take-up {:.3f}′, lost motion {}\n",
+                   s->secant_nm_per_rad, arcmin_per_rad * s->wind_up_rad, arcmin_per_rad * s->take_up_rad,
+                   std::isfinite(s->lost_motion_arcmin) ? fmt::format("{:.3f}′", s->lost_motion_arcmin)
+                                                        : std::string("none (flanks interfere)"));
   }
   if (result.certificate) certificate(*result.certificate, out);
   fmt::format_to(out, "Stages         ");

@@ -149,6 +149,15 @@ private:
     }
     s.secant_nm_per_rad = rated / s.wind_up_rad;
     s.lost_motion_arcmin = 2.0 * at_small->rotation_rad / (60.0 * arcsec);
+    if (const double overlap = (*model)->least_take_up_rad(); overlap < 0.0) {
+      // Between interfering flanks both sides carry at once; this model has the drive flanks alone.
+      s.lost_motion_arcmin = std::numeric_limits<double>::quiet_NaN();
+      if (result_.message.empty()) {
+        result_.message = fmt::format("flanks interfere before any load (by up to {:.3g} rad of rotation): the coast flanks, which "
+                                      "then touch too, are not part of this solution, and there is no lost motion to state",
+                                      -overlap);
+      }
+    }
     result_.stiffness = s;
     return std::nullopt;
   }

@@ -45,11 +45,13 @@ PhaseModel::PhaseModel(const Contact& contact, const RingCompliance& ring, const
     : contact_(contact), ring_(ring), surface_(surface), assembled_(std::move(assembled)), points_(std::move(points)),
       first_(select(first_selection())) {}
 
-double PhaseModel::take_up_rad() const {
+double PhaseModel::least_take_up_rad() const {
   double least = std::numeric_limits<double>::infinity();
   for (const LoadedPoint& point : points_) least = std::min(least, take_up(point));
-  return std::max(0.0, least);
+  return least;
 }
+
+double PhaseModel::take_up_rad() const { return std::max(0.0, least_take_up_rad()); }
 
 PhaseModel::Selection PhaseModel::select(std::vector<int> index) const {
   Selection selection;

@@ -45,6 +45,8 @@ public:
   const std::vector<LoadedPoint>& points() const { return points_; }
   /// Least θ ≥ 0 with contact, min c/R.
   double take_up_rad() const;
+  /// The same without the bound at 0: negative when flanks interfere.
+  double least_take_up_rad() const;
 
   Outcome<PhaseLoad> at_torque(double torque_nm, ContactSolver& solver) const;
   Outcome<PhaseLoad> at_rotation(double rotation_rad, ContactSolver& solver) const;

@@ -126,13 +126,13 @@ TEST_F(CommandLine, CheckOfAStudyPrintsTheWholeStudy) {
 }
 
 TEST_F(CommandLine, CheckOfAStudyOfAnotherKindSaysThatThisVersionHasItNot) {
-  write("study.toml", "kind = \"pareto\"\n");
+  write("study.toml", "kind = \"sweep\"\n");
   const End end = run("check study.toml");
   EXPECT_EQ(end.code, 2);
   EXPECT_EQ(
       end.err,
-      "strainwave: study.toml:1:8: kind: the kind \"pareto\" is not available in this version, which runs "
-      "\"optimize\" only\n");
+      "strainwave: study.toml:1:8: kind: the kind \"sweep\" is not available in this version, which runs "
+      "\"optimize\" and \"pareto\"\n");
 }
 
 TEST_F(CommandLine, MissingFileIsWrongInput) {

@@ -72,8 +72,8 @@ TEST(AssembledPoses, DepartFromTheNonlinearSolutionTowardsFortyFiveDegrees) {
   RecordProperty("radial_um", std::to_string(d.radial_um));
   RecordProperty("tangential_um", std::to_string(d.tangential_um));
   RecordProperty("rotation_rad", std::to_string(d.rotation_rad));
-  EXPECT_LE(d.radial_um, 12.0);
-  EXPECT_LE(d.tangential_um, 2.0);
+  EXPECT_LE(d.radial_um, 2.5);
+  EXPECT_LE(d.tangential_um, 0.7);
 }
 
 TEST(AssembledPoses, BetweenTeethPassesThroughTheTeeth) {
