@@ -49,6 +49,15 @@ TEST_F(StudyCommand, ReducedGalleryStudyEndsInAGearThatAnalyzeAccepts) {
             json["best"]["outputs"]["peak_force_n"]);
 }
 
+TEST_F(StudyCommand, EveryReducedStudyOfTheGalleryEndsWithADesign) {
+  for (const char* name : {"seed_relief_only", "seed_multi_load", "seed_pareto"}) {
+    const End run = shell(fmt::format("PROGRAM study run {}{}.toml --reduced --json", gallery, name));
+    EXPECT_EQ(run.code, 0) << name << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_LT(json["best"]["outputs"]["peak_force_n"], json["baseline"]["outputs"]["peak_force_n"]) << name;
+  }
+}
+
 TEST_F(StudyCommand, TimeLimitStopsWith75) {
   const End end = shell("PROGRAM study run " + gallery + "seed_optimize.toml --time-limit 0.2 --threads 1");
   EXPECT_EQ(end.code, 75) << end.err;
@@ -83,7 +92,8 @@ TEST_F(StudyCommand, WrongFilesEndWith2AndThePlace) {
   EXPECT_NE(complaint("tip_relief_um\"", "tip_releif_um\"").find("study.toml:13:8"), std::string::npos);
   EXPECT_NE(complaint("peak_force_n", "peak_force").find("did you mean \"peak_force_n\"?"),
             std::string::npos);
-  EXPECT_NE(complaint("\"global_then_polish\"", "\"cobila\"").find("did you mean \"cobyla\"?"), std::string::npos);
+  EXPECT_NE(complaint("\"global_then_polish\"", "\"cobila\"").find("did you mean \"cobyla\"?"),
+            std::string::npos);
   EXPECT_NE(complaint("start = 2.0", "start = 20.0").find("between lower"), std::string::npos);
 }
 
