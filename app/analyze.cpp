@@ -28,20 +28,25 @@ struct AnalyzeOptions {
 };
 
 /// Every figure that the result has numbers for; what gnuplot could not draw is a note, not a failure.
-void draw_figures(const ForwardResult& result, Gear gear, Want want, ForwardModel& model, const std::string& folder) {
+void draw_figures(const ForwardResult& result, Gear gear, Want want, ForwardModel& model,
+                  const std::string& folder) {
   std::vector<Figure> figures = backlash_figures(result);
   if (want != Want::backlash && result.status == Status::ok) {
-    if (const auto states = model.contact_states(gear)) figures.push_back(assembled_shape_figure(states->states.front()));
+    if (const auto states = model.contact_states(gear))
+      figures.push_back(assembled_shape_figure(states->states.front()));
   }
-  for (Figure& figure : load_figures(result)) figures.push_back(std::move(figure));
+  for (Figure& figure : load_figures(result))
+    figures.push_back(std::move(figure));
   if (const std::vector<double> rotations = sweep_rotations_rad(result); !rotations.empty()) {
     gear.load.torque_nm.clear();
     gear.load.rotation_rad = rotations;
     gear.load.phases = 1;
     figures.push_back(torque_rotation_figure(result, model.analyze(gear)));
   }
-  if (figures.empty()) return;
-  if (const Drawn drawn = draw(figures, folder); !drawn.complete) report(drawn.note);
+  if (figures.empty())
+    return;
+  if (const Drawn drawn = draw(figures, folder); !drawn.complete)
+    report(drawn.note);
 }
 
 ExitCode analyze(const AnalyzeOptions& options) {
@@ -49,19 +54,25 @@ ExitCode analyze(const AnalyzeOptions& options) {
   if (!options.torque_nm.empty() || !options.rotation_rad.empty()) {
     gear.load.torque_nm.clear();
     gear.load.rotation_rad.clear();
-    if (!options.torque_nm.empty()) set_value(gear, "load.torque_nm", options.torque_nm);
-    if (!options.rotation_rad.empty()) set_value(gear, "load.rotation_rad", options.rotation_rad);
+    if (!options.torque_nm.empty())
+      set_value(gear, "load.torque_nm", options.torque_nm);
+    if (!options.rotation_rad.empty())
+      set_value(gear, "load.rotation_rad", options.rotation_rad);
   }
   const Want want = options.only == "backlash"     ? Want::backlash
                     : options.only == "compliance" ? Want::compliance
                                                    : Want::load;
   ForwardModel model({.disk_cache = !options.no_cache, .threads = options.threads});
   const ForwardResult result = model.analyze(gear, want);
-  for (const std::string& warning : result.warnings) report(warning);
+  for (const std::string& warning : result.warnings)
+    report(warning);
   print(options.json ? result_json_text(result) + "\n" : result_table(result));
-  if (!options.out.empty()) write_result_file(result, write_gear(gear), options.out);
-  if (!options.plots.empty()) draw_figures(result, gear, want, model, options.plots);
-  if (result.status == Status::ok) return ExitCode::done;
+  if (!options.out.empty())
+    write_result_file(result, write_gear(gear), options.out);
+  if (!options.plots.empty())
+    draw_figures(result, gear, want, model, options.plots);
+  if (result.status == Status::ok)
+    return ExitCode::done;
   report(result.message);
   return ExitCode::no_result;
 }
@@ -85,7 +96,8 @@ void add_analyze(CLI::App& app, Command& chosen) {
       ->check(CLI::IsMember({"backlash", "compliance", "load"}));
   command->add_flag("--json", options->json, "Print one JSON object instead of the table");
   command->add_option("-o,--out", options->out, "Also write the result to this HDF5 file");
-  command->add_option("--plots", options->plots, "Also draw figures into this folder (SVG by gnuplot, with their data)");
+  command->add_option("--plots", options->plots,
+                      "Also draw figures into this folder (SVG by gnuplot, with their data)");
   command->add_option("--threads", options->threads, "Threads for the finite elements (0: all cores)")
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--no-cache", options->no_cache, "Neither read nor write the cache of solved cups");

@@ -21,7 +21,7 @@ ExitCode read_and_run(int argc, char** argv) {
              "Results go to stdout, everything else to stderr.\n"
              "Exit codes: 0 done; 2 wrong use or wrong file; 3 the gear has no result; 70 a bug; 74 disk, "
              "memory or\n"
-             "permissions; 75 stopped early, run again to resume.");
+             "permissions; 75 stopped early, run again.");
   Command chosen;
   add_analyze(app, chosen);
   add_export(app, chosen);

@@ -21,36 +21,42 @@ using Out = std::back_insert_iterator<std::string>;
 void wave_generator(const WaveGeneratorResult& wg, Out out) {
   fmt::format_to(out, "Wave generator  {}", wg.shape);
   if (wg.wrap_angle_deg > 0.0) {
-    fmt::format_to(out, ", disc radius {:.4f} mm (to the neutral line), eccentricity {:.4f} mm, wrap angle {:.3f}°",
-                   wg.disc_radius_mm, wg.eccentricity_mm, wg.wrap_angle_deg);
+    fmt::format_to(
+        out, ", disc radius {:.4f} mm (to the neutral line), eccentricity {:.4f} mm, wrap angle {:.3f}°",
+        wg.disc_radius_mm, wg.eccentricity_mm, wg.wrap_angle_deg);
   }
   fmt::format_to(out, ", u(90°) {:.4f} mm\n", wg.u90_mm);
 }
 
 void backlash(const BacklashResult& b, Out out) {
-  const auto reach = std::count_if(b.backlash_um.begin(), b.backlash_um.end(), [](double c) { return std::isfinite(c); });
-  fmt::format_to(out, "Backlash        least {:+.3f} µm at φ = {:.3f}°; {} of {} teeth reach the circular spline{}\n", b.min_um,
-                 b.min_phi_deg, reach, b.tooth.size(),
-                 b.interference ? "; INTERFERENCE: flanks overlap before any load" : "");
+  const auto reach =
+      std::count_if(b.backlash_um.begin(), b.backlash_um.end(), [](double c) { return std::isfinite(c); });
+  fmt::format_to(
+      out, "Backlash        least {:+.3f} µm at φ = {:.3f}°; {} of {} teeth reach the circular spline{}\n",
+      b.min_um, b.min_phi_deg, reach, b.tooth.size(),
+      b.interference ? "; INTERFERENCE: flanks overlap before any load" : "");
 }
 
 void backlash_table(const BacklashResult& b, Out out) {
-  fmt::format_to(out, "\n  {:>5} {:>9} {:>13} {:>13} {:>16}\n  {:>5} {:>9} {:>13} {:>13} {:>16}\n", "tooth", "φ", "drive", "coast",
-                 "contact radius", "", "°", "µm", "µm", "mm");
+  fmt::format_to(out, "\n  {:>5} {:>9} {:>13} {:>13} {:>16}\n  {:>5} {:>9} {:>13} {:>13} {:>16}\n", "tooth",
+                 "φ", "drive", "coast", "contact radius", "", "°", "µm", "µm", "mm");
   for (std::size_t i = 0; i < b.tooth.size(); ++i) {
-    if (!std::isfinite(b.backlash_um[i]) && !std::isfinite(b.coast_backlash_um[i])) continue;
+    if (!std::isfinite(b.backlash_um[i]) && !std::isfinite(b.coast_backlash_um[i]))
+      continue;
     const auto cell = [](double x) { return std::isfinite(x) ? fmt::format("{:.3f}", x) : std::string("–"); };
-    fmt::format_to(out, "  {:>5} {:>9.3f} {:>12} {:>12} {:>15}\n", b.tooth[i], b.phi_deg[i], cell(b.backlash_um[i]),
-                   cell(b.coast_backlash_um[i]), cell(b.contact_radius_mm[i]));
+    fmt::format_to(out, "  {:>5} {:>9.3f} {:>12} {:>12} {:>15}\n", b.tooth[i], b.phi_deg[i],
+                   cell(b.backlash_um[i]), cell(b.coast_backlash_um[i]), cell(b.contact_radius_mm[i]));
   }
 }
 
 void loads(const std::vector<LoadResult>& results, Out out) {
-  fmt::format_to(out, "\n  {:>9} {:>10} {:>10} {:>8} {:>8} {:>20} {:>11} {:>9}\n", "torque", "rotation", "peak force", "at φ", "engaged",
-                 "from … to φ", "tangent", "disc");
-  fmt::format_to(out, "  {:>9} {:>10} {:>10} {:>8} {:>8} {:>20} {:>11} {:>9}\n", "N·m", "mrad", "N", "°", "teeth", "°", "N·m/rad", "N");
+  fmt::format_to(out, "\n  {:>9} {:>10} {:>10} {:>8} {:>8} {:>20} {:>11} {:>9}\n", "torque", "rotation",
+                 "peak force", "at φ", "engaged", "from … to φ", "tangent", "disc");
+  fmt::format_to(out, "  {:>9} {:>10} {:>10} {:>8} {:>8} {:>20} {:>11} {:>9}\n", "N·m", "mrad", "N", "°",
+                 "teeth", "°", "N·m/rad", "N");
   for (const LoadResult& load : results) {
-    fmt::format_to(out, "  {:>8.3f} {:>10.4f} {:>10.2f} ", load.torque_nm, 1e3 * load.rotation_rad, load.peak_force_n);
+    fmt::format_to(out, "  {:>8.3f} {:>10.4f} {:>10.2f} ", load.torque_nm, 1e3 * load.rotation_rad,
+                   load.peak_force_n);
     if (load.engaged_count > 0) {
       fmt::format_to(out, "{:>7.2f} {:>8} {:>20}", load.peak_phi_deg, load.engaged_count,
                      fmt::format("{:.2f} … {:.2f}", load.engaged_lo_deg, load.engaged_hi_deg));
@@ -58,9 +64,12 @@ void loads(const std::vector<LoadResult>& results, Out out) {
       fmt::format_to(out, "{:>7} {:>8} {:>20}", "–", 0, "no contact");
     }
     fmt::format_to(out, " {:>10.1f} ", load.tangent_stiffness_nm_per_rad);
-    if (load.disc_force_n > 0.0) fmt::format_to(out, "{:>9.2f}", load.disc_force_n);
-    else fmt::format_to(out, "{:>9}", "–");
-    if (load.direction == Direction::coast) fmt::format_to(out, "  coast");
+    if (load.disc_force_n > 0.0)
+      fmt::format_to(out, "{:>9.2f}", load.disc_force_n);
+    else
+      fmt::format_to(out, "{:>9}", "–");
+    if (load.direction == Direction::coast)
+      fmt::format_to(out, "  coast");
     if (load.transmission_error_arcsec) {
       fmt::format_to(out, "  transmission error {:.3f}″ peak to peak", *load.transmission_error_arcsec);
     }
@@ -69,28 +78,35 @@ void loads(const std::vector<LoadResult>& results, Out out) {
 }
 
 void tooth_forces(const LoadResult& load, Out out) {
-  if (load.engaged_count == 0) return;
+  if (load.engaged_count == 0)
+    return;
   fmt::format_to(out, "\nMeshing forces at {:.3f} N·m (each of both lobes)\n", load.torque_nm);
   for (std::size_t i = 0; i < load.tooth.size(); ++i) {
-    const bool near_zone = load.phi_deg[i] >= load.engaged_lo_deg - 6.0 && load.phi_deg[i] <= load.engaged_hi_deg + 6.0;
-    if (!near_zone) continue;
+    const bool near_zone =
+        load.phi_deg[i] >= load.engaged_lo_deg - 6.0 && load.phi_deg[i] <= load.engaged_hi_deg + 6.0;
+    if (!near_zone)
+      continue;
     const auto bar = static_cast<std::size_t>(std::lround(40.0 * load.force_n[i] / load.peak_force_n));
     if (load.force_n[i] > 0.0) {
-      fmt::format_to(out, "  {:>7.2f}° {:>8.2f} N  {}\n", load.phi_deg[i], load.force_n[i], std::string(bar, '#'));
+      fmt::format_to(out, "  {:>7.2f}° {:>8.2f} N  {}\n", load.phi_deg[i], load.force_n[i],
+                     std::string(bar, '#'));
     } else {
-      fmt::format_to(out, "  {:>7.2f}° {:>8}    gap {:.2f} µm\n", load.phi_deg[i], "–", load.loaded_backlash_um[i]);
+      fmt::format_to(out, "  {:>7.2f}° {:>8}    gap {:.2f} µm\n", load.phi_deg[i], "–",
+                     load.loaded_backlash_um[i]);
     }
   }
 }
 
 void certificate(const Certificate& c, Out out) {
   fmt::format_to(out,
-                 "Certificate     {}: complementarity {:.1e}, least gap {:.1e} µm, least force {:.1e} N, reciprocity {:.1e},\n"
+                 "Certificate     {}: complementarity {:.1e}, least gap {:.1e} µm, least force {:.1e} N, "
+                 "reciprocity {:.1e},\n"
                  "                equilibrium {:.1e}, exact disc gap within {:.1e} µm",
-                 c.holds() ? "holds" : "DOES NOT HOLD", c.complementarity, c.min_gap_um, c.min_force_n, c.reciprocity,
-                 c.equilibrium, c.exact_gap_residual_um);
+                 c.holds() ? "holds" : "DOES NOT HOLD", c.complementarity, c.min_gap_um, c.min_force_n,
+                 c.reciprocity, c.equilibrium, c.exact_gap_residual_um);
   if (c.discretisation_estimate > 0.0) {
-    fmt::format_to(out, ", mesh error of the tooth compliance about {:.1f} %", 100.0 * c.discretisation_estimate);
+    fmt::format_to(out, ", mesh error of the tooth compliance about {:.1f} %",
+                   100.0 * c.discretisation_estimate);
   }
   fmt::format_to(out, "\n");
 }
@@ -101,13 +117,17 @@ std::string result_table(const ForwardResult& result) {
   std::string text;
   const Out out(text);
   fmt::format_to(out, "{} · fidelity {}\n\n", result.gear, choice_name(result.fidelity));
-  if (result.wave_generator) wave_generator(*result.wave_generator, out);
+  if (result.wave_generator)
+    wave_generator(*result.wave_generator, out);
   if (result.backlash) {
     backlash(*result.backlash, out);
-    if (!result.assembly) backlash_table(*result.backlash, out);
+    if (!result.assembly)
+      backlash_table(*result.backlash, out);
   }
   if (const auto& a = result.assembly) {
-    fmt::format_to(out, "Assembly        {:.2f} N on each disc, wall in contact from {:.2f}° to {:.2f}°, {:.4f} mm at the major axis, mid face\n",
+    fmt::format_to(out,
+                   "Assembly        {:.2f} N on each disc, wall in contact from {:.2f}° to {:.2f}°, {:.4f} "
+                   "mm at the major axis, mid face\n",
                    a->contact_force_n, a->contact_lo_deg, a->contact_hi_deg, a->radial_deformation_mm);
   }
   if (const auto& c = result.compliance; c && result.load.empty()) {
@@ -117,26 +137,39 @@ std::string result_table(const ForwardResult& result) {
       least = std::min(least, c->matrix_um_per_n[i][i]);
       most = std::max(most, c->matrix_um_per_n[i][i]);
     }
-    fmt::format_to(out, "Compliance      {} teeth, own compliance {:.4f} … {:.4f} µm/N (both lobes loaded); the matrix is in --json\n",
+    fmt::format_to(out,
+                   "Compliance      {} teeth, own compliance {:.4f} … {:.4f} µm/N (both lobes loaded); the "
+                   "matrix is in --json\n",
                    c->tooth.size(), least, most);
   }
-  if (!result.load.empty()) loads(result.load, out);
-  if (!result.load.empty()) tooth_forces(result.load.back(), out);
+  if (!result.load.empty())
+    loads(result.load, out);
+  if (!result.load.empty())
+    tooth_forces(result.load.back(), out);
   if (const auto& s = result.stiffness) {
-    fmt::format_to(out, "\nStiffness       {:.1f} N·m/rad (secant at rated torque), wind-up {:.3f}′, take-up {:.3f}′, lost motion {}\n",
+    fmt::format_to(out,
+                   "\nStiffness       {:.1f} N·m/rad (secant at rated torque), wind-up {:.3f}′, take-up "
+                   "{:.3f}′, lost motion {}\n",
                    s->secant_nm_per_rad, arcmin_per_rad * s->wind_up_rad, arcmin_per_rad * s->take_up_rad,
                    std::isfinite(s->lost_motion_arcmin) ? fmt::format("{:.3f}′", s->lost_motion_arcmin)
                                                         : std::string("none (flanks interfere)"));
   }
-  if (result.certificate) certificate(*result.certificate, out);
+  if (result.certificate)
+    certificate(*result.certificate, out);
   fmt::format_to(out, "Stages         ");
   for (const Stage& stage : result.stages) {
-    if (stage.status == StageStatus::skipped) fmt::format_to(out, " {} skipped;", stage.name);
-    else fmt::format_to(out, " {} {:.1f} ms{};", stage.name, 1e3 * stage.seconds, stage.status == StageStatus::reused ? " reused" : "");
+    if (stage.status == StageStatus::skipped)
+      fmt::format_to(out, " {} skipped;", stage.name);
+    else
+      fmt::format_to(out, " {} {:.1f} ms{};", stage.name, 1e3 * stage.seconds,
+                     stage.status == StageStatus::reused ? " reused" : "");
   }
-  if (!result.stages.empty()) text.back() = '\n';
-  else fmt::format_to(out, " none\n");
-  if (!result.message.empty()) fmt::format_to(out, "\n{}: {}\n", status_name(result.status), result.message);
+  if (!result.stages.empty())
+    text.back() = '\n';
+  else
+    fmt::format_to(out, " none\n");
+  if (!result.message.empty())
+    fmt::format_to(out, "\n{}: {}\n", status_name(result.status), result.message);
   return text;
 }
 

@@ -26,7 +26,8 @@ Gear one_load(double torque_nm) {
 
 void everything_known(benchmark::State& state) {
   Gear gear = one_load(7.0);
-  for (auto _ : state) benchmark::DoNotOptimize(warm_model().analyze(gear));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(warm_model().analyze(gear));
 }
 BENCHMARK(everything_known)->Unit(benchmark::kMillisecond);
 
@@ -77,7 +78,8 @@ BENCHMARK(whole_flank)->Unit(benchmark::kMillisecond);
 
 void backlash_only(benchmark::State& state) {
   Gear gear = one_load(7.0);
-  for (auto _ : state) benchmark::DoNotOptimize(warm_model().analyze(gear, Want::backlash));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(warm_model().analyze(gear, Want::backlash));
 }
 BENCHMARK(backlash_only)->Unit(benchmark::kMillisecond);
 

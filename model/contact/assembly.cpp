@@ -13,12 +13,14 @@ Eigen::MatrixX2d AssembledState::force_components() const {
   return normal.array().colwise() * force_n.array();
 }
 
-Eigen::Vector2d wall_resultant(const std::vector<WallStation>& stations, const Eigen::MatrixX2d& force_components) {
+Eigen::Vector2d wall_resultant(const std::vector<WallStation>& stations,
+                               const Eigen::MatrixX2d& force_components) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const double c = std::cos(stations[i].phi_rad);
     const double s = std::sin(stations[i].phi_rad);
-    if (c < 0.0) continue;
+    if (c < 0.0)
+      continue;
     const auto row = force_components.row(static_cast<Eigen::Index>(i));
     sum += Eigen::Vector2d(c * row(0) - s * row(1), s * row(0) + c * row(1));
   }
@@ -26,7 +28,8 @@ Eigen::Vector2d wall_resultant(const std::vector<WallStation>& stations, const E
 }
 
 double gap_rounding_mm(Eigen::Index unknowns, double radius_mm, double largest_displacement_mm) {
-  return 4.0 * static_cast<double>(unknowns) * std::numeric_limits<double>::epsilon() * (radius_mm + largest_displacement_mm);
+  return 4.0 * static_cast<double>(unknowns) * std::numeric_limits<double>::epsilon() *
+         (radius_mm + largest_displacement_mm);
 }
 
 namespace {
@@ -37,7 +40,8 @@ void summarise(AssembledState& state) {
   bool any = false;
   for (std::size_t i = 0; i < state.stations.size(); ++i) {
     const double phi = state.stations[i].phi_rad;
-    if (state.force_n(static_cast<Eigen::Index>(i)) == 0.0 || std::cos(phi) < 0.0) continue;
+    if (state.force_n(static_cast<Eigen::Index>(i)) == 0.0 || std::cos(phi) < 0.0)
+      continue;
     state.contact_lo_rad = any ? std::min(state.contact_lo_rad, phi) : phi;
     state.contact_hi_rad = any ? std::max(state.contact_hi_rad, phi) : phi;
     any = true;
@@ -48,15 +52,17 @@ void summarise(AssembledState& state) {
 
 std::string describe_divergence(const char* what, double change_mm, int steps) {
   if (!std::isfinite(change_mm)) {
-    return fmt::format("{} did not converge: displacements grow beyond all bounds within {} Newton steps", what, steps);
+    return fmt::format("{} did not converge: displacements grow beyond all bounds within {} Newton steps",
+                       what, steps);
   }
-  return fmt::format("{} did not converge: the gap between wall and wave generator still changes by {:.3g} mm after {} "
-                     "Newton steps",
-                     what, change_mm, steps);
+  return fmt::format(
+      "{} did not converge: the gap between wall and wave generator still changes by {:.3g} mm after {} "
+      "Newton steps",
+      what, change_mm, steps);
 }
 
-Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGeneratorSurface& surface, double phase,
-                                 ContactSolver& solver, const AssemblyOptions& options) {
+Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGeneratorSurface& surface,
+                                 double phase, ContactSolver& solver, const AssemblyOptions& options) {
   AssembledState state;
   state.stations = ring.stations(phase);
   const auto n = static_cast<Eigen::Index>(state.stations.size());
@@ -88,19 +94,21 @@ Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGenerator
     const ContactState solved = solver.solve_at(problem, 0.0, step > 1 ? state.active : ActiveSet{});
     state.force_n = solved.force;
     state.active = solved.active;
-    state.displacement =
-        ring.wall_displacement(state.stations, state.stations, state.force_components(), {}, Eigen::VectorXd());
+    state.displacement = ring.wall_displacement(state.stations, state.stations, state.force_components(), {},
+                                                Eigen::VectorXd());
     measure();
     state.newton_change_mm = (state.gap_mm - solved.gap).cwiseAbs().maxCoeff();
-    if (!std::isfinite(state.newton_change_mm) || !state.displacement.allFinite()) break;
-    converged = end.reached(state.newton_change_mm,
-                            gap_rounding_mm(n, surface.inner_radius_mm(),
-                                            problem.m.diagonal().maxCoeff() * state.force_n.sum()));
-    if (converged) break;
+    if (!std::isfinite(state.newton_change_mm) || !state.displacement.allFinite())
+      break;
+    converged = end.reached(
+        state.newton_change_mm,
+        gap_rounding_mm(n, surface.inner_radius_mm(), problem.m.diagonal().maxCoeff() * state.force_n.sum()));
+    if (converged)
+      break;
   }
   if (!converged) {
-    return Failure{Status::not_converged, describe_divergence("assembly on the wave generator", state.newton_change_mm,
-                                                              state.newton_steps)};
+    return Failure{Status::not_converged, describe_divergence("assembly on the wave generator",
+                                                              state.newton_change_mm, state.newton_steps)};
   }
   // The normals have just been measured again; the matrix handed on belongs to them.
   state.compliance = ring.wall_wall(state.stations, state.normal);
@@ -108,7 +116,8 @@ Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGenerator
   return state;
 }
 
-AssembledState hold_at_lines(const RingCompliance& ring, double angle_rad, double displacement_mm, double phase) {
+AssembledState hold_at_lines(const RingCompliance& ring, double angle_rad, double displacement_mm,
+                             double phase) {
   AssembledState state;
   state.stations = ring.stations(phase);
   const auto n = static_cast<Eigen::Index>(state.stations.size());
@@ -118,13 +127,15 @@ AssembledState hold_at_lines(const RingCompliance& ring, double angle_rad, doubl
   state.compliance = ring.wall_wall(state.stations, state.normal);
 
   std::vector<double> lines = {-angle_rad, angle_rad};
-  if (!ring.folded()) lines.insert(lines.end(), {angle_rad - std::numbers::pi, std::numbers::pi - angle_rad});
+  if (!ring.folded())
+    lines.insert(lines.end(), {angle_rad - std::numbers::pi, std::numbers::pi - angle_rad});
   state.hold = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(lines.size()) * rows, n);
   // Stations stand in groups of `rows` by ascending angle.
   const Eigen::Index groups = n / rows;
   for (std::size_t line = 0; line < lines.size(); ++line) {
     Eigen::Index after = 0;
-    while (after < groups - 1 && state.stations[static_cast<std::size_t>(after * rows)].phi_rad < lines[line]) ++after;
+    while (after < groups - 1 && state.stations[static_cast<std::size_t>(after * rows)].phi_rad < lines[line])
+      ++after;
     const Eigen::Index before = std::max<Eigen::Index>(0, after - 1);
     const double lo = state.stations[static_cast<std::size_t>(before * rows)].phi_rad;
     const double hi = state.stations[static_cast<std::size_t>(after * rows)].phi_rad;
@@ -137,7 +148,8 @@ AssembledState hold_at_lines(const RingCompliance& ring, double angle_rad, doubl
   }
   const Eigen::MatrixXd held = state.hold * state.compliance * state.hold.transpose();
   const Eigen::LLT<Eigen::MatrixXd> factor(held);
-  if (factor.info() != Eigen::Success) throw NotPositiveDefinite(0, held.diagonal().minCoeff());
+  if (factor.info() != Eigen::Success)
+    throw NotPositiveDefinite(0, held.diagonal().minCoeff());
   const Eigen::VectorXd reaction = factor.solve(Eigen::VectorXd::Constant(held.rows(), displacement_mm));
   state.force_n = state.hold.transpose() * reaction;
   state.displacement =

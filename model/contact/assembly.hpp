@@ -27,16 +27,16 @@ struct AssembledState {
   Eigen::MatrixX2d displacement; ///< (w outwards, v towards larger φ), mm
   Eigen::VectorXd gap_mm;        ///< exact
   ActiveSet active;
-  Eigen::MatrixXd compliance;    ///< NᵀGN of all stations, mm/N
+  Eigen::MatrixXd compliance; ///< NᵀGN of all stations, mm/N
 
   /// Only for walls held at lines (four_force): one line of weights on the stations for each held point; else empty.
   Eigen::MatrixXd hold;
 
-  double disc_force_n = 0.0;        ///< resultant of one lobe along the major axis
-  double contact_lo_rad = 0.0;      ///< outermost stations of the lobe around φ = 0 that carry force
+  double disc_force_n = 0.0;   ///< resultant of one lobe along the major axis
+  double contact_lo_rad = 0.0; ///< outermost stations of the lobe around φ = 0 that carry force
   double contact_hi_rad = 0.0;
   int newton_steps = 0;
-  double newton_change_mm = 0.0;    ///< last change between exact and linear gap
+  double newton_change_mm = 0.0; ///< last change between exact and linear gap
 
   /// Forces as (radial, circumferential) components, N.
   Eigen::MatrixX2d force_components() const;
@@ -47,12 +47,13 @@ struct AssemblyOptions {
   int max_newton_steps = 40;
 };
 
-Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGeneratorSurface& surface, double phase,
-                                 ContactSolver& solver, const AssemblyOptions& options = {});
+Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGeneratorSurface& surface,
+                                 double phase, ContactSolver& solver, const AssemblyOptions& options = {});
 
 /// Four radial forces have no surface: the wall is held, both ways, at the lines φ = ±angle (and opposite) along the rows,
 /// with the given radial displacement there. Held points between two stations use linear weights.
-AssembledState hold_at_lines(const RingCompliance& ring, double angle_rad, double displacement_mm, double phase);
+AssembledState hold_at_lines(const RingCompliance& ring, double angle_rad, double displacement_mm,
+                             double phase);
 
 /// What rounding leaves of a gap, mm: the bound 4 n ε (R + G Σ|F|) with n unknowns, wall radius R and G the largest unit
 /// response, so that no displacement is larger than G Σ|F|. A Cholesky solve leaves (3n + 1) ε of that in the gaps of the
@@ -78,6 +79,7 @@ private:
 std::string describe_divergence(const char* what, double change_mm, int steps);
 
 /// Resultants (major axis, minor axis) of wall forces over the lobe around φ = 0, N.
-Eigen::Vector2d wall_resultant(const std::vector<WallStation>& stations, const Eigen::MatrixX2d& force_components);
+Eigen::Vector2d wall_resultant(const std::vector<WallStation>& stations,
+                               const Eigen::MatrixX2d& force_components);
 
 } // namespace strainwave

@@ -21,7 +21,8 @@ void set_point_gaps(std::span<const LoadedPoint> points, ContactProblem& problem
 
 } // namespace
 
-std::vector<ToothFunctional> tooth_functionals(const RingCompliance& ring, std::span<const LoadedPoint> points) {
+std::vector<ToothFunctional> tooth_functionals(const RingCompliance& ring,
+                                               std::span<const LoadedPoint> points) {
   std::vector<ToothFunctional> result;
   result.reserve(points.size());
   for (const LoadedPoint& point : points) {
@@ -51,7 +52,8 @@ HeldWall held_wall(const RingCompliance& ring, const AssembledState& assembled,
   }
   std::vector<WallStation> stations;
   for (std::size_t i = 0; i < assembled.active.size(); ++i) {
-    if (!assembled.active[i]) continue;
+    if (!assembled.active[i])
+      continue;
     stations.push_back(assembled.stations[i]);
     held.closed.push_back(static_cast<Eigen::Index>(i));
   }
@@ -66,10 +68,12 @@ Eigen::MatrixXd frozen_compliance(const RingCompliance& ring, const AssembledSta
                                   std::span<const ToothFunctional> teeth) {
   Eigen::MatrixXd d = ring.tooth_tooth(teeth);
   const HeldWall held = held_wall(ring, assembled, teeth);
-  if (held.compliance.size() == 0) return d;
+  if (held.compliance.size() == 0)
+    return d;
   // D = G_tt − YᵀY with Y = L⁻¹ G_wt: symmetric by construction.
   const Eigen::LLT<Eigen::MatrixXd> factor(held.compliance);
-  if (factor.info() != Eigen::Success) throw NotPositiveDefinite(0, held.compliance.diagonal().minCoeff());
+  if (factor.info() != Eigen::Success)
+    throw NotPositiveDefinite(0, held.compliance.diagonal().minCoeff());
   const Eigen::MatrixXd y = factor.matrixL().solve(held.from_teeth);
   d.selfadjointView<Eigen::Lower>().rankUpdate(y.transpose(), -1.0);
   d.triangularView<Eigen::StrictlyUpper>() = d.transpose();
@@ -146,8 +150,8 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
   for (int step = 0; step <= max_steps; ++step) {
     const Eigen::VectorXd wall = result.state.force.tail(m);
     result.wall_force = normal.array().colwise() * wall.array();
-    const Eigen::MatrixX2d u = ring.wall_displacement(assembled.stations, assembled.stations, result.wall_force,
-                                                      load.points, -result.state.force.head(n));
+    const Eigen::MatrixX2d u = ring.wall_displacement(
+        assembled.stations, assembled.stations, result.wall_force, load.points, -result.state.force.head(n));
     Eigen::VectorXd gap(m);
     for (Eigen::Index i = 0; i < m; ++i) {
       const WallStation& s = assembled.stations[static_cast<std::size_t>(i)];
@@ -159,10 +163,12 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
     result.residual_mm = (gap - result.state.gap.tail(m)).cwiseAbs().maxCoeff();
     result.newton_steps = step;
     const double largest_mm = problem.m.diagonal().maxCoeff() * result.state.force.sum();
-    if (end.reached(result.residual_mm, gap_rounding_mm(n + m, surface.inner_radius_mm(), largest_mm))) break;
+    if (end.reached(result.residual_mm, gap_rounding_mm(n + m, surface.inner_radius_mm(), largest_mm)))
+      break;
     if (step == max_steps || !std::isfinite(result.residual_mm)) {
-      return Failure{Status::not_converged, describe_divergence("contact of the wall with the wave generator under load",
-                                                                result.residual_mm, step)};
+      return Failure{Status::not_converged,
+                     describe_divergence("contact of the wall with the wave generator under load",
+                                         result.residual_mm, step)};
     }
     problem.m.bottomRightCorner(m, m) = ring.wall_wall(assembled.stations, normal);
     const Eigen::MatrixXd wall_tooth = ring.wall_tooth(assembled.stations, normal, load.points);
@@ -173,7 +179,8 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
     const ActiveSet warm = result.state.active;
     if (control == Control::torque) {
       auto solved = solver.solve_torque(problem, start.torque, warm);
-      if (!solved) return solved.failure();
+      if (!solved)
+        return solved.failure();
       result.state = std::move(solved).value();
     } else {
       result.state = solver.solve_at(problem, start.rotation, warm);

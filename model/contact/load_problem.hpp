@@ -21,19 +21,20 @@ namespace strainwave {
 struct LoadedPoint {
   int tooth = 0; ///< material index; its sector
   double phi_rad = 0.0;
-  double backlash_mm = 0.0;        ///< c, circumferential; negative: interference
-  double contact_radius_mm = 0.0;  ///< R: lever arm, distance of the deformed point from the gear's axis
-  double flank_radius_mm = 0.0;    ///< of the point on the undeformed flexspline: where the unit responses are taken
+  double backlash_mm = 0.0;       ///< c, circumferential; negative: interference
+  double contact_radius_mm = 0.0; ///< R: lever arm, distance of the deformed point from the gear's axis
+  double flank_radius_mm =
+      0.0; ///< of the point on the undeformed flexspline: where the unit responses are taken
   double pressure_angle_rad = 0.0; ///< α′; 0: circumferential force
   int slice = -1;                  ///< of the face; −1: shared evenly by all
   double z_mm = 0.0;
 };
 
 struct LoadProblem {
-  ContactProblem problem;             ///< points of the teeth first, then (unilateral) wall stations
+  ContactProblem problem;              ///< points of the teeth first, then (unilateral) wall stations
   std::vector<ToothFunctional> points; ///< towards larger φ and, with α′, outwards
   int point_count = 0;
-  double lobes = 2.0;                 ///< torque = lobes · r · z
+  double lobes = 2.0; ///< torque = lobes · r · z
 };
 
 /// Compliance of the teeth on the discs with the assembled contact frozen (held both ways), mm/N.
@@ -45,7 +46,8 @@ Eigen::MatrixXd frozen_compliance(const RingCompliance& ring, const AssembledSta
 Eigen::MatrixX2d frozen_reaction(const RingCompliance& ring, const AssembledState& assembled,
                                  std::span<const ToothFunctional> teeth, const Eigen::VectorXd& tooth_force);
 
-std::vector<ToothFunctional> tooth_functionals(const RingCompliance& ring, std::span<const LoadedPoint> points);
+std::vector<ToothFunctional> tooth_functionals(const RingCompliance& ring,
+                                               std::span<const LoadedPoint> points);
 
 LoadProblem linear_problem(const RingCompliance& ring, const AssembledState& assembled,
                            std::span<const LoadedPoint> points);

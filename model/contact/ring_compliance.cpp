@@ -12,13 +12,15 @@ std::vector<std::pair<int, double>> lagrange_weights(std::span<const double> nod
   assert(n > 0);
   const int width = std::min(n, 4);
   const int above = static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), x) - nodes.begin());
-  if (above < n && nodes[static_cast<std::size_t>(above)] == x) return {{above, 1.0}};
+  if (above < n && nodes[static_cast<std::size_t>(above)] == x)
+    return {{above, 1.0}};
   const int first = std::clamp(above - width / 2, 0, n - width);
   std::vector<std::pair<int, double>> weights;
   for (int i = first; i < first + width; ++i) {
     double weight = 1.0;
     for (int j = first; j < first + width; ++j) {
-      if (j == i) continue;
+      if (j == i)
+        continue;
       const auto a = static_cast<std::size_t>(i);
       const auto b = static_cast<std::size_t>(j);
       weight *= (x - nodes[b]) / (nodes[a] - nodes[b]);
@@ -29,7 +31,8 @@ std::vector<std::pair<int, double>> lagrange_weights(std::span<const double> nod
 }
 
 RingCompliance::RingCompliance(const UnitResponses& responses, std::vector<double> rows_mm, bool fold)
-    : responses_(&responses), rows_(std::move(rows_mm)), period_(fold ? responses.sectors / 2 : responses.sectors) {
+    : responses_(&responses), rows_(std::move(rows_mm)),
+      period_(fold ? responses.sectors / 2 : responses.sectors) {
   assert(!fold || responses.sectors % 2 == 0);
   const int n = responses.count();
   const auto block = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
@@ -44,7 +47,8 @@ RingCompliance::RingCompliance(const UnitResponses& responses, std::vector<doubl
   Eigen::MatrixXd p = Eigen::MatrixXd::Zero(n, 2 * stations * rows);
   for (int station = 0; station < stations; ++station) {
     for (int row = 0; row < rows; ++row) {
-      for (const auto& [at, weight] : lagrange_weights(responses.wall_z_mm, rows_[static_cast<std::size_t>(row)])) {
+      for (const auto& [at, weight] :
+           lagrange_weights(responses.wall_z_mm, rows_[static_cast<std::size_t>(row)])) {
         for (int direction = 0; direction < 2; ++direction) {
           p(responses.wall(station, at, direction), 2 * (station * rows + row) + direction) = weight;
         }
@@ -53,7 +57,8 @@ RingCompliance::RingCompliance(const UnitResponses& responses, std::vector<doubl
   }
   for (int k = 0; k < period_; ++k) {
     Eigen::MatrixXd g = stored(k);
-    if (fold) g += stored(k + period_);
+    if (fold)
+      g += stored(k + period_);
     wall_all_.push_back(p.transpose() * g);
     wall_wall_.push_back(wall_all_.back() * p);
     all_.push_back(std::move(g));
@@ -67,7 +72,8 @@ std::vector<WallStation> RingCompliance::stations(double phase) const {
   for (int k = -period_; k <= period_; ++k) {
     for (int station = 0; station < static_cast<int>(responses_->wall_offset.size()); ++station) {
       const double phi = pitch * (k + responses_->wall_offset[static_cast<std::size_t>(station)] + phase);
-      if (phi <= -half + 1e-12 || phi > half + 1e-12) continue;
+      if (phi <= -half + 1e-12 || phi > half + 1e-12)
+        continue;
       for (int row = 0; row < static_cast<int>(rows_.size()); ++row) {
         result.push_back({k, station, row, phi, rows_[static_cast<std::size_t>(row)]});
       }
@@ -98,12 +104,14 @@ ToothFunctional RingCompliance::tooth(int sector, double radius_mm, double circu
   ToothFunctional result{sector, {}};
   for (const auto& [level, weight] : levels) {
     for (int slice = 0; slice < slices; ++slice) {
-      if (only_slice >= 0 && slice != only_slice) continue;
+      if (only_slice >= 0 && slice != only_slice)
+        continue;
       // hats at both ends of the face are half as wide as the others
       const double width = slice == 0 || slice == slices - 1 ? 0.5 : 1.0;
       const double share = only_slice >= 0 || slices == 1 ? 1.0 : width / (slices - 1);
       const double part = weight * share;
-      if (part == 0.0) continue;
+      if (part == 0.0)
+        continue;
       if (circumferential != 0.0) {
         result.weights.emplace_back(responses_->flank(level, slice, UnitResponses::circumferential),
                                     circumferential * part);
@@ -116,7 +124,8 @@ ToothFunctional RingCompliance::tooth(int sector, double radius_mm, double circu
   return result;
 }
 
-Eigen::MatrixXd RingCompliance::wall_wall(std::span<const WallStation> stations, const Eigen::MatrixX2d& normal) const {
+Eigen::MatrixXd RingCompliance::wall_wall(std::span<const WallStation> stations,
+                                          const Eigen::MatrixX2d& normal) const {
   const auto n = static_cast<Eigen::Index>(stations.size());
   Eigen::MatrixXd result(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
@@ -136,7 +145,8 @@ Eigen::MatrixXd RingCompliance::wall_wall(std::span<const WallStation> stations,
   return result;
 }
 
-Eigen::MatrixXd RingCompliance::wall_tooth(std::span<const WallStation> stations, const Eigen::MatrixX2d& normal,
+Eigen::MatrixXd RingCompliance::wall_tooth(std::span<const WallStation> stations,
+                                           const Eigen::MatrixX2d& normal,
                                            std::span<const ToothFunctional> teeth) const {
   Eigen::MatrixXd result(static_cast<Eigen::Index>(stations.size()), static_cast<Eigen::Index>(teeth.size()));
   for (Eigen::Index j = 0; j < result.cols(); ++j) {
@@ -165,7 +175,8 @@ Eigen::MatrixXd RingCompliance::tooth_tooth(std::span<const ToothFunctional> tee
       const Eigen::MatrixXd& g = all_[static_cast<std::size_t>(wrapped(at.sector - load.sector))];
       double sum = 0.0;
       for (const auto& [a, weight_a] : at.weights) {
-        for (const auto& [b, weight_b] : load.weights) sum += weight_a * weight_b * g(a, b);
+        for (const auto& [b, weight_b] : load.weights)
+          sum += weight_a * weight_b * g(a, b);
       }
       result(i, j) = sum;
       result(j, i) = sum;
@@ -174,7 +185,8 @@ Eigen::MatrixXd RingCompliance::tooth_tooth(std::span<const ToothFunctional> tee
   return result;
 }
 
-Eigen::MatrixX2d RingCompliance::wall_displacement(std::span<const WallStation> at, std::span<const WallStation> loaded,
+Eigen::MatrixX2d RingCompliance::wall_displacement(std::span<const WallStation> at,
+                                                   std::span<const WallStation> loaded,
                                                    const Eigen::MatrixX2d& wall_force,
                                                    std::span<const ToothFunctional> teeth,
                                                    const Eigen::VectorXd& tooth_force) const {
@@ -185,7 +197,8 @@ Eigen::MatrixX2d RingCompliance::wall_displacement(std::span<const WallStation> 
     double w = 0.0;
     double v = 0.0;
     for (Eigen::Index j = 0; j < wall_force.rows(); ++j) {
-      if (wall_force(j, 0) == 0.0 && wall_force(j, 1) == 0.0) continue;
+      if (wall_force(j, 0) == 0.0 && wall_force(j, 1) == 0.0)
+        continue;
       const WallStation& load = loaded[static_cast<std::size_t>(j)];
       const Eigen::MatrixXd& g = wall_wall_[static_cast<std::size_t>(wrapped(point.sector - load.sector))];
       const int b = wall_index(load);
@@ -193,7 +206,8 @@ Eigen::MatrixX2d RingCompliance::wall_displacement(std::span<const WallStation> 
       v += g(a, b + 1) * wall_force(j, 0) + g(a, b) * wall_force(j, 1);
     }
     for (Eigen::Index j = 0; j < tooth_force.size(); ++j) {
-      if (tooth_force(j) == 0.0) continue;
+      if (tooth_force(j) == 0.0)
+        continue;
       const ToothFunctional& tooth = teeth[static_cast<std::size_t>(j)];
       const Eigen::MatrixXd& g = wall_all_[static_cast<std::size_t>(wrapped(point.sector - tooth.sector))];
       for (const auto& [b, weight] : tooth.weights) {
@@ -212,14 +226,16 @@ Eigen::VectorXd RingCompliance::tooth_displacement(std::span<const ToothFunction
                                                    const Eigen::VectorXd& force) const {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(of.size()));
   for (Eigen::Index j = 0; j < force.size(); ++j) {
-    if (force(j) == 0.0) continue;
+    if (force(j) == 0.0)
+      continue;
     const ToothFunctional& load = loaded[static_cast<std::size_t>(j)];
     for (Eigen::Index i = 0; i < result.size(); ++i) {
       const ToothFunctional& at = of[static_cast<std::size_t>(i)];
       const Eigen::MatrixXd& g = all_[static_cast<std::size_t>(wrapped(at.sector - load.sector))];
       double sum = 0.0;
       for (const auto& [b, weight_b] : load.weights) {
-        for (const auto& [a, weight_a] : at.weights) sum += weight_a * weight_b * g(a, b);
+        for (const auto& [a, weight_a] : at.weights)
+          sum += weight_a * weight_b * g(a, b);
       }
       result(i) += sum * force(j);
     }
@@ -234,7 +250,8 @@ Eigen::VectorXd RingCompliance::tooth_displacement(std::span<const ToothFunction
   for (Eigen::Index i = 0; i < result.size(); ++i) {
     const ToothFunctional& tooth = teeth[static_cast<std::size_t>(i)];
     for (Eigen::Index j = 0; j < wall_force.rows(); ++j) {
-      if (wall_force(j, 0) == 0.0 && wall_force(j, 1) == 0.0) continue;
+      if (wall_force(j, 0) == 0.0 && wall_force(j, 1) == 0.0)
+        continue;
       const WallStation& load = loaded[static_cast<std::size_t>(j)];
       // tooth ← wall at offset k is wall ← tooth at −k, by reciprocity
       const Eigen::MatrixXd& g = wall_all_[static_cast<std::size_t>(wrapped(load.sector - tooth.sector))];
@@ -248,7 +265,8 @@ Eigen::VectorXd RingCompliance::tooth_displacement(std::span<const ToothFunction
 }
 
 Eigen::MatrixX4d RingCompliance::section(std::span<const int> at_sectors, double z_mm,
-                                         std::span<const WallStation> loaded, const Eigen::MatrixX2d& wall_force,
+                                         std::span<const WallStation> loaded,
+                                         const Eigen::MatrixX2d& wall_force,
                                          std::span<const ToothFunctional> teeth,
                                          const Eigen::VectorXd& tooth_force) const {
   assert(!responses_->section_z_mm.empty());
@@ -269,14 +287,18 @@ Eigen::MatrixX4d RingCompliance::section(std::span<const int> at_sectors, double
       const WallStation& load = loaded[static_cast<std::size_t>(j)];
       const Eigen::MatrixXd& g = wall_all_[static_cast<std::size_t>(wrapped(load.sector - sector))];
       const int b = wall_index(load);
-      if (wall_force(j, 0) != 0.0) add(b + 1, wall_force(j, 0), g, true);
-      if (wall_force(j, 1) != 0.0) add(b, wall_force(j, 1), g, true);
+      if (wall_force(j, 0) != 0.0)
+        add(b + 1, wall_force(j, 0), g, true);
+      if (wall_force(j, 1) != 0.0)
+        add(b, wall_force(j, 1), g, true);
     }
     for (Eigen::Index j = 0; j < tooth_force.size(); ++j) {
-      if (tooth_force(j) == 0.0) continue;
+      if (tooth_force(j) == 0.0)
+        continue;
       const ToothFunctional& tooth = teeth[static_cast<std::size_t>(j)];
       const Eigen::MatrixXd& g = all_[static_cast<std::size_t>(wrapped(sector - tooth.sector))];
-      for (const auto& [b, weight] : tooth.weights) add(b, weight * tooth_force(j), g, false);
+      for (const auto& [b, weight] : tooth.weights)
+        add(b, weight * tooth_force(j), g, false);
     }
   }
   return result;

@@ -53,7 +53,8 @@ public:
   /// The flank functional of a tooth at a radius of the undeformed flank: linear between two heights (held at the ends),
   /// `circumferential` times the circumferential and `inwards` times the inward radial one, on one face slice or (−1)
   /// shared by all of them as their hats share the face.
-  ToothFunctional tooth(int sector, double radius_mm, double circumferential, double inwards, int slice = -1) const;
+  ToothFunctional tooth(int sector, double radius_mm, double circumferential, double inwards,
+                        int slice = -1) const;
 
   // Compliances, mm/N; `normal` columns are (radial, circumferential) components of a contact normal per station.
   // wall × wall: displacement along normal i from unit force along normal j.
@@ -66,14 +67,17 @@ public:
   /// Displacements of stations, columns (w, v), from wall forces (columns radial, circumferential; N) and tooth forces
   /// (towards larger φ; N).
   Eigen::MatrixX2d wall_displacement(std::span<const WallStation> at, std::span<const WallStation> loaded,
-                                     const Eigen::MatrixX2d& wall_force, std::span<const ToothFunctional> teeth,
+                                     const Eigen::MatrixX2d& wall_force,
+                                     std::span<const ToothFunctional> teeth,
                                      const Eigen::VectorXd& tooth_force) const;
 
   /// Displacement of the teeth's functionals from forces on other ones (N, along the functionals).
-  Eigen::VectorXd tooth_displacement(std::span<const ToothFunctional> of, std::span<const ToothFunctional> loaded,
+  Eigen::VectorXd tooth_displacement(std::span<const ToothFunctional> of,
+                                     std::span<const ToothFunctional> loaded,
                                      const Eigen::VectorXd& force) const;
   /// The same from wall forces (columns radial, circumferential; N).
-  Eigen::VectorXd tooth_displacement(std::span<const ToothFunctional> teeth, std::span<const WallStation> loaded,
+  Eigen::VectorXd tooth_displacement(std::span<const ToothFunctional> teeth,
+                                     std::span<const WallStation> loaded,
                                      const Eigen::MatrixX2d& wall_force) const;
 
   /// Displacement of the neutral surface under tooth centres at axial position z, from wall and tooth forces:
@@ -87,7 +91,9 @@ private:
     int w = k % period_;
     return w < 0 ? w + period_ : w;
   }
-  int wall_index(const WallStation& s) const { return 2 * (s.station * static_cast<int>(rows_.size()) + s.row); }
+  int wall_index(const WallStation& s) const {
+    return 2 * (s.station * static_cast<int>(rows_.size()) + s.row);
+  }
 
   const UnitResponses* responses_;
   std::vector<double> rows_;

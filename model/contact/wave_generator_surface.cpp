@@ -25,7 +25,8 @@ WallGap WaveGeneratorSurface::disc_gap(double phi, double z, double w, double v)
   if (discs_.linearised) {
     const double reach = radius + half_thickness_;
     const double neutral = inner_radius_ + half_thickness_;
-    return {.gap_mm = w - (e * c + std::sqrt(reach * reach - e * e * s * s) - neutral), .radial = 1.0,
+    return {.gap_mm = w - (e * c + std::sqrt(reach * reach - e * e * s * s) - neutral),
+            .radial = 1.0,
             .circumferential = 0.0};
   }
   // In the frame (e_r, e_φ) of the material angle: point (r + w, v), disc centre (e cos φ, −e sin φ).

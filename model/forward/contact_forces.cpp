@@ -15,7 +15,8 @@ class RingForces {
 public:
   explicit RingForces(const RingCompliance& ring) : ring_(ring) {}
   void add(int sector, int functional, double force) {
-    if (force == 0.0) return;
+    if (force == 0.0)
+      return;
     const int n = ring_.sectors();
     for (int lobe = 0; lobe < n / ring_.period(); ++lobe) {
       sum_[{((sector + lobe * ring_.period()) % n + n) % n, functional}] += force;
@@ -23,7 +24,8 @@ public:
   }
   std::vector<FunctionalForce> list() const {
     std::vector<FunctionalForce> result;
-    for (const auto& [at, force] : sum_) result.push_back({at.first, at.second, force});
+    for (const auto& [at, force] : sum_)
+      result.push_back({at.first, at.second, force});
     return result;
   }
 
@@ -48,8 +50,8 @@ ContactForces contact_forces(std::string name, const RingCompliance& ring, const
       forces.add(functionals[i].sector, functional, -weight * tooth_force[i]);
     }
   }
-  const Eigen::MatrixX2d displacement = ring.wall_displacement(assembled.stations, assembled.stations, wall_force,
-                                                               functionals, -vector_of(tooth_force));
+  const Eigen::MatrixX2d displacement = ring.wall_displacement(
+      assembled.stations, assembled.stations, wall_force, functionals, -vector_of(tooth_force));
   const UnitResponses& responses = ring.responses();
   for (std::size_t i = 0; i < assembled.stations.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);

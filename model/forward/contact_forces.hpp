@@ -24,9 +24,10 @@ struct FunctionalForce {
 /// One place where the wall may touch the wave generator. Directions: outwards, towards larger φ.
 struct WallContact {
   WallStation station;
-  std::vector<FunctionalForce> average; ///< weights (in force_n) whose measurement is the station's circumferential
-                                        ///< displacement; functional + 1 measures the radial one
-  double radial_n = 0.0, circumferential_n = 0.0; ///< on the flexspline
+  std::vector<FunctionalForce>
+      average; ///< weights (in force_n) whose measurement is the station's circumferential
+               ///< displacement; functional + 1 measures the radial one
+  double radial_n = 0.0, circumferential_n = 0.0;   ///< on the flexspline
   double radial_mm = 0.0, circumferential_mm = 0.0; ///< displacement
 };
 

@@ -10,19 +10,21 @@
 
 namespace strainwave {
 
-AssembledPoses::AssembledPoses(const RingCompliance& ring, const AssembledState& assembled, double neutral_radius_mm,
-                               double phase, std::vector<double> z_mm)
+AssembledPoses::AssembledPoses(const RingCompliance& ring, const AssembledState& assembled,
+                               double neutral_radius_mm, double phase, std::vector<double> z_mm)
     : period_(ring.period()), pitch_(2.0 * std::numbers::pi / ring.sectors()), phase_(phase),
       neutral_radius_(neutral_radius_mm) {
   std::vector<int> sectors;
   first_sector_ = -period_ / 2 - 2;
-  for (int k = first_sector_; k <= period_ / 2 + 2; ++k) sectors.push_back(k);
+  for (int k = first_sector_; k <= period_ / 2 + 2; ++k)
+    sectors.push_back(k);
   for (const double z : z_mm) {
     const Eigen::MatrixX4d section =
         ring.section(sectors, z, assembled.stations, assembled.force_components(), {}, Eigen::VectorXd());
     std::vector<Displacement> slice;
     for (Eigen::Index i = 0; i < section.rows(); ++i) {
-      slice.push_back({section(i, UnitResponses::section_radial), section(i, UnitResponses::section_circumferential),
+      slice.push_back({section(i, UnitResponses::section_radial),
+                       section(i, UnitResponses::section_circumferential),
                        section(i, UnitResponses::section_rotation)});
     }
     at_.push_back(std::move(slice));
@@ -32,13 +34,16 @@ AssembledPoses::AssembledPoses(const RingCompliance& ring, const AssembledState&
 Pose AssembledPoses::standing(double phi_rad, const Displacement& d) const {
   const double across = neutral_radius_ + d.u;
   const double turn = std::atan2(d.v, across);
-  return {.rho_mm = std::hypot(across, d.v), .phi1_rad = phi_rad + turn, .normal_rotation_rad = d.rotation - turn};
+  return {.rho_mm = std::hypot(across, d.v),
+          .phi1_rad = phi_rad + turn,
+          .normal_rotation_rad = d.rotation - turn};
 }
 
 AssembledPoses::Displacement AssembledPoses::interpolated(double phi_rad, int slice) const {
   const auto& at = at_[static_cast<std::size_t>(slice)];
   std::vector<double> angle;
-  for (std::size_t i = 0; i < at.size(); ++i) angle.push_back(pitch_ * (first_sector_ + static_cast<int>(i) + phase_));
+  for (std::size_t i = 0; i < at.size(); ++i)
+    angle.push_back(pitch_ * (first_sector_ + static_cast<int>(i) + phase_));
   Displacement d;
   for (const auto& [i, weight] : lagrange_weights(angle, phi_rad)) {
     const Displacement& from = at[static_cast<std::size_t>(i)];
@@ -58,13 +63,18 @@ Pose AssembledPoses::pose(int sector, double phi_rad, int slice) const {
   return standing(phi_rad, at_[static_cast<std::size_t>(slice)][static_cast<std::size_t>(i)]);
 }
 
-Pose AssembledPoses::between(double phi_rad, int slice) const { return standing(phi_rad, interpolated(phi_rad, slice)); }
+Pose AssembledPoses::between(double phi_rad, int slice) const {
+  return standing(phi_rad, interpolated(phi_rad, slice));
+}
 
-double AssembledPoses::radial(double phi_rad, int slice) const { return interpolated(phi_rad, slice).u; }
+double AssembledPoses::radial(double phi_rad, int slice) const {
+  return interpolated(phi_rad, slice).u;
+}
 
 std::vector<double> slice_places(const UnitResponses& responses) {
   std::vector<double> z = responses.flank_z_mm;
-  if (z.size() > 1) { // a half hat at either end of the face: its mean is that of a point a third of the step inside
+  if (z.size() >
+      1) { // a half hat at either end of the face: its mean is that of a point a third of the step inside
     const double third = (z[1] - z[0]) / 3.0;
     z.front() += third;
     z.back() -= third;
@@ -105,11 +115,13 @@ std::vector<LoadedPoint> flank_points(const Gear& gear, const UnitResponses& res
       };
       if (gear.contact.flank_points == 1) { // the source text's model: the point of least gap
         const ToothBacklash contact = pair.drive(pose, space);
-        if (contact.overlap) add_contact(contact);
+        if (contact.overlap)
+          add_contact(contact);
         continue;
       }
       const std::vector<GapPoint> ends = gap_profile(pair, pose, space, 2);
-      if (ends.empty()) continue;
+      if (ends.empty())
+        continue;
       const auto add = [&](const GapPoint& at, ContactPlace place) {
         add_contact({.overlap = true,
                      .backlash_mm = at.gap_mm,
@@ -117,12 +129,14 @@ std::vector<LoadedPoint> flank_points(const Gear& gear, const UnitResponses& res
                      .flank_height = at.flank_height,
                      .place = place});
       };
-      const double edge = ends.front().flank_height; // the circular spline's tip edge, or the flexspline's root
+      const double edge =
+          ends.front().flank_height; // the circular spline's tip edge, or the flexspline's root
       add(ends.front(), edge > 1e-12 ? ContactPlace::circular_spline_tip : ContactPlace::flexspline_root);
       for (std::size_t level = 0; level < responses.flank_radius_mm.size(); ++level) {
         const bool last = level + 1 == responses.flank_radius_mm.size();
         const double h = last ? 1.0 : static_cast<double>(level) * step;
-        if (h < edge + 0.5 * step) continue;
+        if (h < edge + 0.5 * step)
+          continue;
         if (const auto at = gap_at_height(pair, pose, space, h)) {
           add(*at, last ? ContactPlace::flexspline_tip : ContactPlace::flank);
         }

@@ -28,8 +28,8 @@ using PoseSource = std::function<Pose(int sector, double phi_rad, int slice)>;
 /// Poses of every tooth of the period at chosen places along the axis, from the assembled cup.
 class AssembledPoses {
 public:
-  AssembledPoses(const RingCompliance& ring, const AssembledState& assembled, double neutral_radius_mm, double phase,
-                 std::vector<double> z_mm);
+  AssembledPoses(const RingCompliance& ring, const AssembledState& assembled, double neutral_radius_mm,
+                 double phase, std::vector<double> z_mm);
   /// At a tooth centre of the ring. phi is folded to the lobe around the major axis.
   Pose pose(int sector, double phi_rad, int slice) const;
   /// At any material angle of the first lobe: displacements interpolated between the four nearest tooth centres.
@@ -46,8 +46,8 @@ private:
 
   int period_;
   double pitch_, phase_, neutral_radius_;
-  int first_sector_ = 0;                               ///< of `at_`; sectors ascend
-  std::vector<std::vector<Displacement>> at_;          ///< [slice][sector − first]
+  int first_sector_ = 0;                      ///< of `at_`; sectors ascend
+  std::vector<std::vector<Displacement>> at_; ///< [slice][sector − first]
 };
 
 /// Where along the axis the gap of a slice is taken: the centroid of its hat, because what is compared with the gap is the

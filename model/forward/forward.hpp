@@ -19,8 +19,8 @@ namespace strainwave {
 struct ContactStates; // contact_forces.hpp
 
 struct ForwardOptions {
-  bool disk_cache = true;  ///< unit responses on disk, in the XDG cache directory
-  int threads = 0;         ///< for the finite elements; 0: all cores
+  bool disk_cache = true; ///< unit responses on disk, in the XDG cache directory
+  int threads = 0;        ///< for the finite elements; 0: all cores
 };
 
 /// What this version cannot do for a gear beyond its backlash, as the status not_available.

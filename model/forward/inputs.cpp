@@ -51,10 +51,13 @@ double row_spacing(const Gear& gear) {
 } // namespace
 
 std::optional<Failure> find_unavailable(const Gear& gear) {
-  const auto refuse = [](std::string sentence) { return Failure{Status::not_available, std::move(sentence)}; };
+  const auto refuse = [](std::string sentence) {
+    return Failure{Status::not_available, std::move(sentence)};
+  };
   const Contact& c = gear.contact;
   if (c.fidelity == Fidelity::nonlinear || c.assembly == AssemblyModel::nonlinear) {
-    return refuse("the nonlinear finite-element check is not in this version; use contact.fidelity = \"unilateral\" and "
+    return refuse("the nonlinear finite-element check is not in this version; use contact.fidelity = "
+                  "\"unilateral\" and "
                   "contact.assembly = \"small_displacement\"");
   }
   if (c.reference_section_mm && !(gear.wave_generator.shape == WaveGeneratorShape::two_disc ||
@@ -62,14 +65,15 @@ std::optional<Failure> find_unavailable(const Gear& gear) {
     return refuse("contact.reference_section_mm shifts the two discs; this wave generator has none");
   }
   if (gear.wave_generator.shape == WaveGeneratorShape::four_force && c.fidelity != Fidelity::linear) {
-    return refuse("a four_force wave generator has no surface to lift off from; use contact.fidelity = \"linear\"");
+    return refuse(
+        "a four_force wave generator has no surface to lift off from; use contact.fidelity = \"linear\"");
   }
   const double overhang = 0.5 * (gear.wave_generator.contact_width_mm - gear.flexspline.face_width_mm);
   if (overhang > row_spacing(gear)) {
-    return refuse(fmt::format("wave_generator.contact_width_mm {} reaches {} mm past both ends of face_width_mm {}; the wall's "
-                              "compliance is known under the teeth and {} mm (one element) beyond",
-                              gear.wave_generator.contact_width_mm, overhang, gear.flexspline.face_width_mm,
-                              row_spacing(gear)));
+    return refuse(fmt::format(
+        "wave_generator.contact_width_mm {} reaches {} mm past both ends of face_width_mm {}; the wall's "
+        "compliance is known under the teeth and {} mm (one element) beyond",
+        gear.wave_generator.contact_width_mm, overhang, gear.flexspline.face_width_mm, row_spacing(gear)));
   }
   return std::nullopt;
 }
@@ -78,7 +82,8 @@ std::vector<double> contact_rows(const Gear& gear) {
   const Flexspline& fs = gear.flexspline;
   const WaveGenerator& wg = gear.wave_generator;
   const double middle = fs.cup_length_mm - fs.front_clearance_mm - 0.5 * fs.face_width_mm;
-  if (wg.contact_width_mm < 0.1 * row_spacing(gear)) return {middle};
+  if (wg.contact_width_mm < 0.1 * row_spacing(gear))
+    return {middle};
   return {middle - 0.5 * wg.contact_width_mm, middle, middle + 0.5 * wg.contact_width_mm};
 }
 
@@ -88,12 +93,12 @@ WaveGeneratorSurface surface_of(const Gear& gear, const NeutralCurve& curve, dou
   const CurveSummary& summary = curve.summary();
   if (summary.disc_radius_mm) {
     const double width = gear.wave_generator.contact_width_mm;
-    return {WaveGeneratorSurface::Discs{
-                .eccentricity_mm = *summary.eccentricity_mm + disc_shift_mm,
-                .neutral_disc_radius_mm = *summary.disc_radius_mm,
-                .linearised = gear.contact.disc_gap == DiscGap::linearised,
-                .taper_per_mm = 1e-3 * gear.wave_generator.disc_taper_um / width,
-                .middle_z_mm = fs.cup_length_mm - fs.front_clearance_mm - 0.5 * fs.face_width_mm},
+    return {WaveGeneratorSurface::Discs{.eccentricity_mm = *summary.eccentricity_mm + disc_shift_mm,
+                                        .neutral_disc_radius_mm = *summary.disc_radius_mm,
+                                        .linearised = gear.contact.disc_gap == DiscGap::linearised,
+                                        .taper_per_mm = 1e-3 * gear.wave_generator.disc_taper_um / width,
+                                        .middle_z_mm = fs.cup_length_mm - fs.front_clearance_mm -
+                                                       0.5 * fs.face_width_mm},
             fs.neutral_radius_mm - half, half};
   }
   return {[curve](double x, double y) {

@@ -21,8 +21,12 @@ struct Asked {
 };
 
 /// The drive-side phase that mirrors phase s of the coast side.
-double mirrored_phase(double s) { return s == 0.0 ? 0.0 : 1.0 - s; }
-int mirrored_tooth(int tooth, double phase) { return phase == 0.0 ? -tooth : -1 - tooth; }
+double mirrored_phase(double s) {
+  return s == 0.0 ? 0.0 : 1.0 - s;
+}
+int mirrored_tooth(int tooth, double phase) {
+  return phase == 0.0 ? -tooth : -1 - tooth;
+}
 
 LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction direction, double phase) {
   LoadResult result;
@@ -55,10 +59,13 @@ LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction dir
     result.points.force_n.push_back(load.force_n[i]);
     result.points.gap_um.push_back(load.gap_um[i]);
   }
-  if (result.tooth.size() == n) result.points = {}; // one point a tooth: nothing to add
+  if (result.tooth.size() == n)
+    result.points = {}; // one point a tooth: nothing to add
   for (std::size_t i = 0; i < result.tooth.size(); ++i) {
-    if (!(result.force_n[i] > 0.0)) continue;
-    if (result.engaged_count++ == 0) result.engaged_lo_deg = result.phi_deg[i];
+    if (!(result.force_n[i] > 0.0))
+      continue;
+    if (result.engaged_count++ == 0)
+      result.engaged_lo_deg = result.phi_deg[i];
     result.engaged_hi_deg = result.phi_deg[i];
     if (result.force_n[i] > result.peak_force_n) {
       result.peak_force_n = result.force_n[i];
@@ -75,12 +82,16 @@ public:
 
   std::optional<Failure> run() {
     std::vector<Asked> asked;
-    for (const double torque : gear_.load.torque_nm) asked.push_back({true, torque});
-    for (const double rotation : gear_.load.rotation_rad) asked.push_back({false, rotation});
+    for (const double torque : gear_.load.torque_nm)
+      asked.push_back({true, torque});
+    for (const double rotation : gear_.load.rotation_rad)
+      asked.push_back({false, rotation});
     for (const Direction direction : {Direction::drive, Direction::coast}) {
-      if (gear_.load.direction != Direction::both && gear_.load.direction != direction) continue;
+      if (gear_.load.direction != Direction::both && gear_.load.direction != direction)
+        continue;
       for (const Asked& load : asked) {
-        if (auto failure = one_case(load, direction)) return failure;
+        if (auto failure = one_case(load, direction))
+          return failure;
       }
     }
     return stiffness();
@@ -88,14 +99,17 @@ public:
 
 private:
   Outcome<PhaseLoad> solve(const PhaseModel& model, const Asked& asked) {
-    auto load = asked.torque ? model.at_torque(asked.value, solver_) : model.at_rotation(asked.value, solver_);
-    if (load) note(*load);
+    auto load =
+        asked.torque ? model.at_torque(asked.value, solver_) : model.at_rotation(asked.value, solver_);
+    if (load)
+      note(*load);
     if (load && asked.torque) {
       // relative to it, or to what the largest force of teeth and wall would make of it
       const double leverage = 1e-3 * gear_.flexspline.tip_radius_mm * load->certificate.force_scale;
       const double scale = std::max(asked.value, leverage);
       const double error = std::abs(load->torque_nm - asked.value);
-      if (gear_.contact.method == LoadMethod::event_path) raise(result_.certificate->equilibrium, scale > 0.0 ? error / scale : error);
+      if (gear_.contact.method == LoadMethod::event_path)
+        raise(result_.certificate->equilibrium, scale > 0.0 ? error / scale : error);
     }
     return load;
   }
@@ -109,14 +123,17 @@ private:
     for (int j = 0; j < gear_.load.phases; ++j) {
       const double phase = static_cast<double>(j) / gear_.load.phases;
       const auto model = source_(direction == Direction::coast ? mirrored_phase(phase) : phase);
-      if (!model) return model.failure();
+      if (!model)
+        return model.failure();
       const auto load = solve(**model, asked);
-      if (!load) return load.failure();
+      if (!load)
+        return load.failure();
       least_rotation = std::min(least_rotation, load->rotation_rad);
       most_rotation = std::max(most_rotation, load->rotation_rad);
       LoadResult presented = present(**model, *load, direction, phase);
       phases.push_back({phase, presented.rotation_rad, presented.tooth, presented.force_n});
-      if (!worst || presented.peak_force_n > worst->peak_force_n) worst = std::move(presented);
+      if (!worst || presented.peak_force_n > worst->peak_force_n)
+        worst = std::move(presented);
     }
     if (gear_.load.phases > 1 && asked.torque) {
       worst->transmission_error_arcsec = (most_rotation - least_rotation) / arcsec;
@@ -132,19 +149,25 @@ private:
   /// At meshing phase 0, where drive and coast side are mirror images.
   std::optional<Failure> stiffness() {
     const double rated = gear_.load.rated_torque_nm;
-    if (!(rated > 0.0)) return std::nullopt;
+    if (!(rated > 0.0))
+      return std::nullopt;
     const auto model = source_(0.0);
-    if (!model) return model.failure();
+    if (!model)
+      return model.failure();
     const auto at_rated = solve(**model, {true, rated});
-    if (!at_rated) return at_rated.failure();
+    if (!at_rated)
+      return at_rated.failure();
     const auto at_small = solve(**model, {true, 0.04 * rated});
-    if (!at_small) return at_small.failure();
+    if (!at_small)
+      return at_small.failure();
     StiffnessResult s;
     s.take_up_rad = (*model)->take_up_rad();
     s.wind_up_rad = at_rated->rotation_rad - s.take_up_rad;
-    if (!(s.wind_up_rad > 0.0)) { // interference at rest holds the rated torque, or it is nothing beside rounding
-      result_.message += fmt::format("{}no torsional stiffness: the rated torque {} N·m is reached at {:.6g} rad, take-up is {:.6g} rad",
-                                     result_.message.empty() ? "" : "; ", rated, at_rated->rotation_rad, s.take_up_rad);
+    if (!(s.wind_up_rad >
+          0.0)) { // interference at rest holds the rated torque, or it is nothing beside rounding
+      result_.message += fmt::format(
+          "{}no torsional stiffness: the rated torque {} N·m is reached at {:.6g} rad, take-up is {:.6g} rad",
+          result_.message.empty() ? "" : "; ", rated, at_rated->rotation_rad, s.take_up_rad);
       return std::nullopt;
     }
     s.secant_nm_per_rad = rated / s.wind_up_rad;
@@ -153,9 +176,10 @@ private:
       // Between interfering flanks both sides carry at once; this model has the drive flanks alone.
       s.lost_motion_arcmin = std::numeric_limits<double>::quiet_NaN();
       if (result_.message.empty()) {
-        result_.message = fmt::format("flanks interfere before any load (by up to {:.3g} rad of rotation): the coast flanks, which "
-                                      "then touch too, are not part of this solution, and there is no lost motion to state",
-                                      -overlap);
+        result_.message = fmt::format(
+            "flanks interfere before any load (by up to {:.3g} rad of rotation): the coast flanks, which "
+            "then touch too, are not part of this solution, and there is no lost motion to state",
+            -overlap);
       }
     }
     result_.stiffness = s;
@@ -164,22 +188,26 @@ private:
 
   /// NaN counts as the worst of all; std::max would lose it.
   static void raise(double& worst, double value) {
-    if (!(value <= worst) && !std::isnan(worst)) worst = value;
+    if (!(value <= worst) && !std::isnan(worst))
+      worst = value;
   }
 
   void note(const PhaseLoad& load) {
     Certificate& c = *result_.certificate;
     const auto lower = [](double& worst, double value) {
-      if (!(value >= worst) && !std::isnan(worst)) worst = value;
+      if (!(value >= worst) && !std::isnan(worst))
+        worst = value;
     };
     const ContactCertificate& solved = load.certificate;
     // Gaps are differences of displacements: measured by the larger of both.
     const double scale = std::max(solved.gap_scale, load.largest_displacement_mm);
-    raise(c.complementarity, scale > 0.0 ? solved.complementarity * (solved.gap_scale / scale) : solved.complementarity);
+    raise(c.complementarity,
+          scale > 0.0 ? solved.complementarity * (solved.gap_scale / scale) : solved.complementarity);
     lower(c.min_gap_um, 1e3 * solved.min_gap);
     lower(c.min_force_n, solved.min_force);
     raise(c.equilibrium, solved.torque_error);
-    if (scale > 0.0) raise(c.equilibrium, load.recomputed_gap_um * 1e-3 / scale);
+    if (scale > 0.0)
+      raise(c.equilibrium, load.recomputed_gap_um * 1e-3 / scale);
     raise(c.exact_gap_residual_um, load.exact_gap_residual_um);
     raise(c.rounding_um, load.rounding_um);
   }
@@ -192,7 +220,8 @@ private:
 
 } // namespace
 
-std::optional<Failure> solve_load_cases(const Gear& gear, const PhaseSource& phase_source, ForwardResult& result) {
+std::optional<Failure> solve_load_cases(const Gear& gear, const PhaseSource& phase_source,
+                                        ForwardResult& result) {
   return Cases(gear, phase_source, result).run();
 }
 

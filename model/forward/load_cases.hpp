@@ -16,6 +16,7 @@ namespace strainwave {
 using PhaseSource = std::function<Outcome<std::shared_ptr<const PhaseModel>>(double phase)>;
 
 /// Fills load, stiffness and the contact part of the certificate of `result`; a Failure when a load has no solution.
-std::optional<Failure> solve_load_cases(const Gear& gear, const PhaseSource& phase_source, ForwardResult& result);
+std::optional<Failure> solve_load_cases(const Gear& gear, const PhaseSource& phase_source,
+                                        ForwardResult& result);
 
 } // namespace strainwave

@@ -12,7 +12,9 @@ namespace strainwave {
 
 namespace {
 
-double take_up(const LoadedPoint& point) { return point.backlash_mm / point.contact_radius_mm; }
+double take_up(const LoadedPoint& point) {
+  return point.backlash_mm / point.contact_radius_mm;
+}
 
 /// Steps of the march: the usual ones, wider for rotations that would take more than some thousand of them.
 MarchOptions steps_over(double range) {
@@ -26,12 +28,14 @@ MarchOptions steps_over(double range) {
 
 /// The source text's way to a torque: march the rotation a little past it, read the rotation off the polygon of accepted
 /// points, march there. `direct`, the direct solution, only bounds the march; below 0 the flanks interfere at rest.
-ContactState march_to_torque(const ContactProblem& problem, double torque, double direct, ContactSolver& solver) {
+ContactState march_to_torque(const ContactProblem& problem, double torque, double direct,
+                             ContactSolver& solver) {
   const MarchOptions options = steps_over(std::abs(direct));
   const double start = direct < 0.0 ? direct - 2.0 * options.step : 0.0;
   const March way = march(problem, start, std::max(0.0, direct) + 2.0 * options.step, options, solver);
   std::size_t i = 1;
-  while (i + 1 < way.torque.size() && way.torque[i] < torque) ++i;
+  while (i + 1 < way.torque.size() && way.torque[i] < torque)
+    ++i;
   const double rise = way.torque[i] - way.torque[i - 1];
   const double share = rise > 0.0 ? (torque - way.torque[i - 1]) / rise : 1.0;
   const double rotation = way.rotation[i - 1] + share * (way.rotation[i] - way.rotation[i - 1]);
@@ -40,25 +44,31 @@ ContactState march_to_torque(const ContactProblem& problem, double torque, doubl
 
 } // namespace
 
-PhaseModel::PhaseModel(const Contact& contact, const RingCompliance& ring, const WaveGeneratorSurface& surface,
-                       std::shared_ptr<const AssembledState> assembled, std::vector<LoadedPoint> points)
-    : contact_(contact), ring_(ring), surface_(surface), assembled_(std::move(assembled)), points_(std::move(points)),
-      first_(select(first_selection())) {}
+PhaseModel::PhaseModel(const Contact& contact, const RingCompliance& ring,
+                       const WaveGeneratorSurface& surface, std::shared_ptr<const AssembledState> assembled,
+                       std::vector<LoadedPoint> points)
+    : contact_(contact), ring_(ring), surface_(surface), assembled_(std::move(assembled)),
+      points_(std::move(points)), first_(select(first_selection())) {}
 
 double PhaseModel::least_take_up_rad() const {
   double least = std::numeric_limits<double>::infinity();
-  for (const LoadedPoint& point : points_) least = std::min(least, take_up(point));
+  for (const LoadedPoint& point : points_)
+    least = std::min(least, take_up(point));
   return least;
 }
 
-double PhaseModel::take_up_rad() const { return std::max(0.0, least_take_up_rad()); }
+double PhaseModel::take_up_rad() const {
+  return std::max(0.0, least_take_up_rad());
+}
 
 PhaseModel::Selection PhaseModel::select(std::vector<int> index) const {
   Selection selection;
   selection.index = std::move(index);
-  for (const int i : selection.index) selection.points.push_back(points_[static_cast<std::size_t>(i)]);
-  selection.load = contact_.fidelity == Fidelity::linear ? linear_problem(ring_, *assembled_, selection.points)
-                                                         : unilateral_problem(ring_, *assembled_, selection.points);
+  for (const int i : selection.index)
+    selection.points.push_back(points_[static_cast<std::size_t>(i)]);
+  selection.load = contact_.fidelity == Fidelity::linear
+                       ? linear_problem(ring_, *assembled_, selection.points)
+                       : unilateral_problem(ring_, *assembled_, selection.points);
   return selection;
 }
 
@@ -71,7 +81,8 @@ std::vector<int> PhaseModel::first_selection() const {
     }
   }
   std::vector<int> index;
-  for (const auto& [key, i] : least) index.push_back(i);
+  for (const auto& [key, i] : least)
+    index.push_back(i);
   if (index.size() < points_.size()) {
     std::stable_sort(index.begin(), index.end(), [&](int a, int b) {
       return take_up(points_[static_cast<std::size_t>(a)]) < take_up(points_[static_cast<std::size_t>(b)]);
@@ -101,7 +112,8 @@ Outcome<PhaseLoad> PhaseModel::solve(Control control, double value, ContactSolve
       warm.insert(warm.end(), wall.begin(), wall.end());
     }
     auto solved = solve_selection(*selection, control, value, warm, solver);
-    if (!solved) return solved.failure();
+    if (!solved)
+      return solved.failure();
 
     PhaseLoad load = solved->load;
     load.rounds = round;
@@ -115,34 +127,40 @@ Outcome<PhaseLoad> PhaseModel::solve(Control control, double value, ContactSolve
       const auto at = static_cast<Eigen::Index>(k);
       inside[i] = 1;
       load.force_n[i] = solved->state.force(at);
-      load.recomputed_gap_um =
-          std::max(load.recomputed_gap_um, 1e3 * std::abs(gap(static_cast<Eigen::Index>(i)) - solved->state.gap(at)));
+      load.recomputed_gap_um = std::max(
+          load.recomputed_gap_um, 1e3 * std::abs(gap(static_cast<Eigen::Index>(i)) - solved->state.gap(at)));
     }
-    const double rounding_mm = 1e-13 * std::max(1.0, load.certificate.gap_scale) + 1e-3 * load.recomputed_gap_um;
+    const double rounding_mm =
+        1e-13 * std::max(1.0, load.certificate.gap_scale) + 1e-3 * load.recomputed_gap_um;
     std::vector<int> index = selection->index;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const double g = gap(static_cast<Eigen::Index>(i));
       const bool closed = inside[i] && load.force_n[i] > 0.0;
       load.gap_um[i] = closed ? 0.0 : 1e3 * std::max(0.0, g) / std::cos(points_[i].pressure_angle_rad);
-      if (!inside[i] && g < -rounding_mm) index.push_back(static_cast<int>(i));
+      if (!inside[i] && g < -rounding_mm)
+        index.push_back(static_cast<int>(i));
     }
-    if (index.size() == selection->index.size()) return load;
+    if (index.size() == selection->index.size())
+      return load;
     std::sort(index.begin(), index.end());
     if (contact_.fidelity != Fidelity::linear) {
-      wall.assign(solved->state.active.end() - static_cast<std::ptrdiff_t>(wall.size()), solved->state.active.end());
+      wall.assign(solved->state.active.end() - static_cast<std::ptrdiff_t>(wall.size()),
+                  solved->state.active.end());
     }
     grown = select(std::move(index));
     selection = &grown;
   }
 }
 
-Outcome<PhaseModel::Solved> PhaseModel::solve_selection(const Selection& selection, Control control, double value,
-                                                        const ActiveSet& warm, ContactSolver& solver) const {
+Outcome<PhaseModel::Solved> PhaseModel::solve_selection(const Selection& selection, Control control,
+                                                        double value, const ActiveSet& warm,
+                                                        ContactSolver& solver) const {
   const ContactProblem& problem = selection.load.problem;
   Solved solved;
   if (control == Control::torque) {
     auto direct = solver.solve_torque(problem, value, warm);
-    if (!direct) return direct.failure();
+    if (!direct)
+      return direct.failure();
     solved.state = std::move(direct).value();
     if (contact_.method == LoadMethod::stepping) {
       solved.state = march_to_torque(problem, value, solved.state.rotation, solver);
@@ -163,7 +181,8 @@ Outcome<PhaseModel::Solved> PhaseModel::solve_selection(const Selection& selecti
   } else {
     auto exact =
         correct_to_exact_gap(ring_, surface_, *assembled_, selection.load, solved.state, control, solver);
-    if (!exact) return exact.failure();
+    if (!exact)
+      return exact.failure();
     load.certificate = exact->certificate;
     load.exact_gap_residual_um = 1e3 * exact->residual_mm;
     load.gap_correction_rotation_rad = exact->correction_rotation_rad;
@@ -171,14 +190,17 @@ Outcome<PhaseModel::Solved> PhaseModel::solve_selection(const Selection& selecti
     solved.wall_force = exact->wall_force;
     solved.state = exact->state;
   }
-  if (solved.wall_force.size() > 0) load.disc_force_n = wall_resultant(assembled_->stations, solved.wall_force)(0);
-  load.wall_force = contact_.fidelity == Fidelity::linear
-                        ? Eigen::MatrixX2d(assembled_->force_components() +
-                                           frozen_reaction(ring_, *assembled_, selection.load.points,
-                                                           solved.state.force.head(selection.load.point_count)))
-                        : solved.wall_force;
+  if (solved.wall_force.size() > 0)
+    load.disc_force_n = wall_resultant(assembled_->stations, solved.wall_force)(0);
+  load.wall_force =
+      contact_.fidelity == Fidelity::linear
+          ? Eigen::MatrixX2d(assembled_->force_components() +
+                             frozen_reaction(ring_, *assembled_, selection.load.points,
+                                             solved.state.force.head(selection.load.point_count)))
+          : solved.wall_force;
   load.largest_displacement_mm = problem.m.diagonal().maxCoeff() * solved.state.force.sum();
-  load.rounding_um = 1e3 * gap_rounding_mm(problem.size(), surface_.inner_radius_mm(), load.largest_displacement_mm);
+  load.rounding_um =
+      1e3 * gap_rounding_mm(problem.size(), surface_.inner_radius_mm(), load.largest_displacement_mm);
   load.rotation_rad = solved.state.rotation;
   load.torque_nm = 1e-3 * selection.load.lobes * solved.state.torque;
   load.tangent_nm_per_rad = 1e-3 * selection.load.lobes * solved.state.stiffness;

@@ -28,9 +28,11 @@ struct PhaseLoad {
   double gap_correction_rotation_rad = 0.0;
   double gap_correction_force_n = 0.0;
   double exact_gap_residual_um = 0.0;
-  double recomputed_gap_um = 0.0; ///< gaps from the forces through the unit responses, against the solver's; largest
-  double largest_displacement_mm = 0.0; ///< bound of any displacement by a part of the forces: largest unit response · Σ force
-  double rounding_um = 0.0;             ///< of a gap (gap_rounding_mm)
+  double recomputed_gap_um =
+      0.0; ///< gaps from the forces through the unit responses, against the solver's; largest
+  double largest_displacement_mm =
+      0.0; ///< bound of any displacement by a part of the forces: largest unit response · Σ force
+  double rounding_um = 0.0; ///< of a gap (gap_rounding_mm)
   ContactCertificate certificate;
   bool contact = false;
   int rounds = 1; ///< selections tried
@@ -68,10 +70,11 @@ private:
   Selection select(std::vector<int> index) const;
   std::vector<int> first_selection() const;
   Outcome<PhaseLoad> solve(Control control, double value, ContactSolver& solver) const;
-  Outcome<Solved> solve_selection(const Selection& selection, Control control, double value, const ActiveSet& warm,
-                                  ContactSolver& solver) const;
+  Outcome<Solved> solve_selection(const Selection& selection, Control control, double value,
+                                  const ActiveSet& warm, ContactSolver& solver) const;
   /// Gap along F of any points from the forces of a solved selection, mm.
-  Eigen::VectorXd gaps(std::span<const LoadedPoint> of, const Selection& selection, const Solved& solved) const;
+  Eigen::VectorXd gaps(std::span<const LoadedPoint> of, const Selection& selection,
+                       const Solved& solved) const;
 
   Contact contact_;
   const RingCompliance& ring_;

@@ -8,8 +8,12 @@ namespace strainwave {
 
 namespace {
 
-double involute(double angle) { return std::tan(angle) - angle; }
-double angle_at(double base, double radius) { return std::acos(std::min(1.0, base / radius)); }
+double involute(double angle) {
+  return std::tan(angle) - angle;
+}
+double angle_at(double base, double radius) {
+  return std::acos(std::min(1.0, base / radius));
+}
 
 } // namespace
 
@@ -24,8 +28,8 @@ double contact_pressure_angle(const Gear& gear, const Pose& pose, const ToothBac
   const double base = 0.5 * fs.module_mm * fs.teeth * std::cos(alpha0);
   const double radius = fs.root_radius_mm + contact.flank_height * (fs.tip_radius_mm - fs.root_radius_mm);
   const double alpha = angle_at(base, radius);
-  const double beta = (0.5 * std::numbers::pi + 2.0 * fs.profile_shift * std::tan(alpha0)) / fs.teeth + involute(alpha0) -
-                      involute(alpha);
+  const double beta = (0.5 * std::numbers::pi + 2.0 * fs.profile_shift * std::tan(alpha0)) / fs.teeth +
+                      involute(alpha0) - involute(alpha);
   // The point in the frame of the tooth's neutral point, then seen from the gear's axis.
   const double along = radius * std::cos(beta) - fs.neutral_radius_mm;
   const double across = radius * std::sin(beta);

@@ -26,7 +26,7 @@ struct WaveGeneratorResult {
 struct BacklashResult {
   std::vector<int> tooth;
   std::vector<double> phi_deg;
-  std::vector<double> backlash_um;       ///< drive flank; negative: interference; NaN where flanks do not overlap
+  std::vector<double> backlash_um; ///< drive flank; negative: interference; NaN where flanks do not overlap
   std::vector<double> coast_backlash_um;
   std::vector<double> contact_radius_mm; ///< NaN where flanks do not overlap
   double min_um = 0.0;                   ///< over continuous φ
@@ -35,11 +35,11 @@ struct BacklashResult {
 };
 
 struct AssemblyResult {
-  double contact_force_n = 0.0;      ///< resultant of one disc along the major axis
+  double contact_force_n = 0.0; ///< resultant of one disc along the major axis
   double contact_lo_deg = 0.0;
   double contact_hi_deg = 0.0;
   double radial_deformation_mm = 0.0; ///< inner wall at the major axis, mid face
-  double disc_shift_mm = 0.0;         ///< of each disc outwards, so that u0 is met at contact.reference_section_mm
+  double disc_shift_mm = 0.0; ///< of each disc outwards, so that u0 is met at contact.reference_section_mm
   int newton_steps = 0;
 };
 
@@ -81,12 +81,13 @@ struct LoadResult {
   double peak_phi_deg = 0.0;
   double peak_phase = 0.0;
   double tangent_stiffness_nm_per_rad = 0.0;
-  double disc_force_n = 0.0;  ///< resultant on one disc along the major axis under this load; 0 for linear
-  std::optional<double> transmission_error_arcsec; ///< peak to peak over the phases of one pitch, at constant torque
+  double disc_force_n = 0.0; ///< resultant on one disc along the major axis under this load; 0 for linear
+  std::optional<double>
+      transmission_error_arcsec;            ///< peak to peak over the phases of one pitch, at constant torque
   double gap_correction_rotation_rad = 0.0; ///< exact disc gap against the linearised one
   double gap_correction_force_n = 0.0;
   std::vector<PhaseForces> phases; ///< all of them, the one of the arrays above included
-  PointResults points; ///< empty with one point a tooth
+  PointResults points;             ///< empty with one point a tooth
 };
 
 struct StiffnessResult {
@@ -98,14 +99,14 @@ struct StiffnessResult {
 
 /// Residuals that prove the result; see docs/certificate.md for their limits.
 struct Certificate {
-  double complementarity = 0.0;        ///< relative, worst of all solves
+  double complementarity = 0.0; ///< relative, worst of all solves
   double min_gap_um = 0.0;
   double min_force_n = 0.0;
-  double reciprocity = 0.0;            ///< of the unit responses, relative
-  double equilibrium = 0.0;            ///< displacements recomputed from the forces against the solver's gaps, relative
+  double reciprocity = 0.0; ///< of the unit responses, relative
+  double equilibrium = 0.0; ///< displacements recomputed from the forces against the solver's gaps, relative
   double discretisation_estimate = 0.0; ///< relative, of the largest tooth compliance
-  double exact_gap_residual_um = 0.0;  ///< disc gap after the Newton correction
-  double rounding_um = 0.0;            ///< what double precision can tell apart in a gap of this gear under its loads
+  double exact_gap_residual_um = 0.0;   ///< disc gap after the Newton correction
+  double rounding_um = 0.0; ///< what double precision can tell apart in a gap of this gear under its loads
   bool holds() const { return !find_flaw(); }
   /// "equilibrium is off by …, at most … is allowed".
   std::optional<std::string> find_flaw() const;
@@ -123,7 +124,7 @@ struct ForwardResult {
   std::string gear;
   Fidelity fidelity = Fidelity::unilateral;
   Status status = Status::ok;
-  std::string message; ///< one sentence when there is something to say; also with status ok
+  std::string message;               ///< one sentence when there is something to say; also with status ok
   std::vector<std::string> warnings; ///< for stderr: a damaged cache file and the like
   std::optional<WaveGeneratorResult> wave_generator;
   std::optional<BacklashResult> backlash;

@@ -23,8 +23,10 @@ public:
   Group& operator=(const Group&) = delete;
   hid_t id() const { return id_; }
 
-  void put(const char* name, const char* unit, const std::vector<double>& values, std::vector<hsize_t> shape = {}) {
-    if (shape.empty()) shape = {values.size()};
+  void put(const char* name, const char* unit, const std::vector<double>& values,
+           std::vector<hsize_t> shape = {}) {
+    if (shape.empty())
+      shape = {values.size()};
     check(H5LTmake_dataset_double(id_, name, static_cast<int>(shape.size()), shape.data(), values.data()));
     check(H5LTset_attribute_string(id_, name, "units", unit));
   }
@@ -40,7 +42,8 @@ public:
 
   template <class T>
   static T check(T code) {
-    if (code < 0) throw std::system_error(EIO, std::generic_category(), "HDF5 refused to write the result file");
+    if (code < 0)
+      throw std::system_error(EIO, std::generic_category(), "HDF5 refused to write the result file");
     return code;
   }
 
@@ -74,7 +77,8 @@ void put_load(const LoadResult& load, Group& group) {
     points.put("force", "N", load.points.force_n);
     points.put("gap", "um", load.points.gap_um);
   }
-  if (load.transmission_error_arcsec) group.put("transmission_error", "arcsec", *load.transmission_error_arcsec);
+  if (load.transmission_error_arcsec)
+    group.put("transmission_error", "arcsec", *load.transmission_error_arcsec);
 }
 
 void put_all(const ForwardResult& result, hid_t file) {
@@ -106,7 +110,8 @@ void put_all(const ForwardResult& result, hid_t file) {
     Group group(file, "compliance");
     group.put("tooth", c->tooth);
     std::vector<double> flat;
-    for (const auto& row : c->matrix_um_per_n) flat.insert(flat.end(), row.begin(), row.end());
+    for (const auto& row : c->matrix_um_per_n)
+      flat.insert(flat.end(), row.begin(), row.end());
     group.put("matrix", "um/N", flat, {c->tooth.size(), c->tooth.size()});
   }
   if (!result.load.empty()) {
@@ -138,17 +143,20 @@ void put_all(const ForwardResult& result, hid_t file) {
 
 } // namespace
 
-void write_result_file(const ForwardResult& result, const std::string& config, const std::filesystem::path& path) {
+void write_result_file(const ForwardResult& result, const std::string& config,
+                       const std::filesystem::path& path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // errors are reported by exception, not printed
   const auto refused = [&path](const std::error_code& cause) {
     return std::system_error(cause, fmt::format("cannot write {}", path.string()));
   };
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw refused(std::make_error_code(std::errc::is_a_directory));
+  if (std::filesystem::is_directory(path, ignored))
+    throw refused(std::make_error_code(std::errc::is_a_directory));
   const std::filesystem::path beside = path.string() + ".part";
   errno = 0;
   const hid_t file = H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  if (file < 0) throw refused(std::error_code(errno != 0 ? errno : EIO, std::generic_category()));
+  if (file < 0)
+    throw refused(std::error_code(errno != 0 ? errno : EIO, std::generic_category()));
   try {
     text(file, "config", config);
     text(file, "version", STRAINWAVE_VERSION);
@@ -165,9 +173,12 @@ void write_result_file(const ForwardResult& result, const std::string& config, c
   }
   std::error_code error;
   errno = 0;
-  if (H5Fclose(file) < 0) error = std::error_code(errno != 0 ? errno : EIO, std::generic_category()); // a full disk shows here
-  else std::filesystem::rename(beside, path, error);
-  if (!error) return;
+  if (H5Fclose(file) < 0)
+    error = std::error_code(errno != 0 ? errno : EIO, std::generic_category()); // a full disk shows here
+  else
+    std::filesystem::rename(beside, path, error);
+  if (!error)
+    return;
   std::filesystem::remove(beside, ignored);
   throw refused(error);
 }

@@ -14,6 +14,7 @@
 namespace strainwave {
 
 /// Throws std::system_error with the cause when the file cannot be written.
-void write_result_file(const ForwardResult& result, const std::string& config, const std::filesystem::path& path);
+void write_result_file(const ForwardResult& result, const std::string& config,
+                       const std::filesystem::path& path);
 
 } // namespace strainwave

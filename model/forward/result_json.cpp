@@ -12,20 +12,26 @@ using Json = nlohmann::ordered_json;
 
 std::string_view name(StageStatus status) {
   switch (status) {
-  case StageStatus::computed: return "computed";
-  case StageStatus::reused: return "reused";
-  case StageStatus::skipped: return "skipped";
+  case StageStatus::computed:
+    return "computed";
+  case StageStatus::reused:
+    return "reused";
+  case StageStatus::skipped:
+    return "skipped";
   }
   return "unknown";
 }
 
 namespace {
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
 
 Json numbers(const std::vector<double>& values) {
   Json array = Json::array();
-  for (const double value : values) array.push_back(number(value));
+  for (const double value : values)
+    array.push_back(number(value));
   return array;
 }
 
@@ -46,7 +52,8 @@ Json load_json(const LoadResult& load) {
   json["peak_phase"] = load.peak_phase;
   json["tangent_stiffness_nm_per_rad"] = load.tangent_stiffness_nm_per_rad;
   json["disc_force_n"] = number(load.disc_force_n);
-  if (load.transmission_error_arcsec) json["transmission_error_arcsec"] = *load.transmission_error_arcsec;
+  if (load.transmission_error_arcsec)
+    json["transmission_error_arcsec"] = *load.transmission_error_arcsec;
   json["gap_correction"] = {{"rotation_rad", load.gap_correction_rotation_rad},
                             {"force_n", load.gap_correction_force_n}};
   if (!load.points.tooth.empty()) {
@@ -93,12 +100,14 @@ Json result_json(const ForwardResult& result) {
                         {"newton_steps", a->newton_steps}};
   }
   if (const auto& c = result.compliance) {
-    json["compliance"] = {
-        {"tooth", c->tooth}, {"matrix_um_per_n", c->matrix_um_per_n}, {"reciprocity_error", c->reciprocity_error}};
+    json["compliance"] = {{"tooth", c->tooth},
+                          {"matrix_um_per_n", c->matrix_um_per_n},
+                          {"reciprocity_error", c->reciprocity_error}};
   }
   if (!result.load.empty()) {
     json["load"] = Json::array();
-    for (const LoadResult& load : result.load) json["load"].push_back(load_json(load));
+    for (const LoadResult& load : result.load)
+      json["load"].push_back(load_json(load));
   }
   if (const auto& s = result.stiffness) {
     json["stiffness"] = {{"secant_nm_per_rad", number(s->secant_nm_per_rad)},
@@ -119,11 +128,14 @@ Json result_json(const ForwardResult& result) {
   }
   json["stages"] = Json::array();
   for (const Stage& stage : result.stages) {
-    json["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"status", name(stage.status)}});
+    json["stages"].push_back(
+        {{"name", stage.name}, {"seconds", stage.seconds}, {"status", name(stage.status)}});
   }
   return json;
 }
 
-std::string result_json_text(const ForwardResult& result) { return result_json(result).dump(2); }
+std::string result_json_text(const ForwardResult& result) {
+  return result_json(result).dump(2);
+}
 
 } // namespace strainwave

@@ -17,7 +17,8 @@ namespace strainwave {
 class ContentKey {
 public:
   ContentKey& add(double value) {
-    if (value == 0.0) value = 0.0;
+    if (value == 0.0)
+      value = 0.0;
     char bytes[sizeof value];
     std::memcpy(bytes, &value, sizeof value);
     bits_.append(bytes, sizeof value);

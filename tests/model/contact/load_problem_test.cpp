@@ -32,7 +32,8 @@ protected:
                        .flank_radius_mm = 14.584});
     }
     // the reference loads every tooth at its tip
-    for (const LoadedPoint& tooth : teeth) at_tip.push_back(ring.tooth(tooth.tooth, 14.584, 1.0, 0.0));
+    for (const LoadedPoint& tooth : teeth)
+      at_tip.push_back(ring.tooth(tooth.tooth, 14.584, 1.0, 0.0));
   }
 
   UnitResponses cup;
@@ -68,8 +69,10 @@ TEST_F(SeedGearOnReferenceCup, AssembledWallStandsWhereTheLinearisedDiscsHoldIt)
     if (s.row == 1) {
       EXPECT_EQ(force, 0.0);
     }
-    if (s.row == 0) rear += force;
-    if (s.row == 2) front += force;
+    if (s.row == 0)
+      rear += force;
+    if (s.row == 2)
+      front += force;
     if (s.row == 0 && std::abs(s.phi_rad) < 1e-9) {
       EXPECT_NEAR(assembled.displacement(static_cast<Eigen::Index>(i), 0), 0.2, 1e-12);
     }
@@ -93,7 +96,9 @@ TEST_F(SeedGearOnReferenceCup, UnilateralColumnOfTheSeedGearComesOut) {
   for (Eigen::Index i = 0; i < n; ++i) {
     load.problem.q(i) = teeth[static_cast<std::size_t>(i)].backlash_mm + wt.col(i).dot(assembled.force_n);
   }
-  const struct { double theta, torque, peak; } expected[] = {{1e-3, 2.79, 26.7}, {2e-3, 5.81, 38.0}, {3.38e-3, 11.3, 58.4}, {4.5e-3, 16.3, 74.7}};
+  const struct {
+    double theta, torque, peak;
+  } expected[] = {{1e-3, 2.79, 26.7}, {2e-3, 5.81, 38.0}, {3.38e-3, 11.3, 58.4}, {4.5e-3, 16.3, 74.7}};
   for (const auto& e : expected) {
     const ContactState state = solver.solve_at(load.problem, e.theta);
     EXPECT_NEAR(2e-3 * state.torque, e.torque, 0.01 * e.torque) << e.theta; // printed to three digits

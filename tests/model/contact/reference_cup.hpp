@@ -50,7 +50,8 @@ inline UnitResponses reference_cup() {
     for (int load = 0; load < 6; ++load) {
       for (int station = 0; station < 2; ++station) {
         for (int row = 0; row < 3; ++row) {
-          at(k, u.wall(station, row, 1), u.wall(load / 3, load % 3, 1)) = ww[load][station][row][k].get<double>();
+          at(k, u.wall(station, row, 1), u.wall(load / 3, load % 3, 1)) =
+              ww[load][station][row][k].get<double>();
         }
       }
     }
@@ -62,7 +63,8 @@ inline UnitResponses reference_cup() {
   };
   for (int k = 0; k < 140; ++k) {
     for (int a = 0; a < n; ++a) {
-      for (int b = 0; b < n; ++b) at(k, a, b) = 0.5 * (old(k, a, b) + old(-k, b, a));
+      for (int b = 0; b < n; ++b)
+        at(k, a, b) = 0.5 * (old(k, a, b) + old(-k, b, a));
     }
   }
   return u;

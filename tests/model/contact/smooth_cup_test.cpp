@@ -53,9 +53,10 @@ TEST_F(SmoothCup, StandsOnTheDiscsWhereTheIndependentProgramFindsIt) {
   for (const char* z : {"21.5", "22.5", "24.5", "26.5", "27.5"}) {
     const auto& points = json["runs"]["l15_eg"]["stations"][z];
     std::vector<int> sectors;
-    for (const auto& point : points) sectors.push_back(static_cast<int>(std::lround(point["phi_deg"].get<double>() / 2.5)));
-    const Eigen::MatrixX4d at =
-        ring.section(sectors, std::stod(z), assembled.stations, assembled.force_components(), {}, Eigen::VectorXd());
+    for (const auto& point : points)
+      sectors.push_back(static_cast<int>(std::lround(point["phi_deg"].get<double>() / 2.5)));
+    const Eigen::MatrixX4d at = ring.section(sectors, std::stod(z), assembled.stations,
+                                             assembled.force_components(), {}, Eigen::VectorXd());
     for (std::size_t i = 0; i < sectors.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       // 1 µm: the figure; its mesh and ours differ by some 0.3 µm
@@ -74,10 +75,13 @@ TEST_F(SmoothCup, TouchesAtTheRearEdgeInTheMiddleAndAtTheFrontEdgeFurtherOut) {
   double front_last = 0.0;
   for (std::size_t i = 0; i < assembled.stations.size(); ++i) {
     const WallStation& s = assembled.stations[i];
-    if (!(assembled.force_n(static_cast<Eigen::Index>(i)) > 0.0) || s.phi_rad < 0.0) continue;
+    if (!(assembled.force_n(static_cast<Eigen::Index>(i)) > 0.0) || s.phi_rad < 0.0)
+      continue;
     const double phi = s.phi_rad / degree;
-    if (s.row == 0) rear_last = std::max(rear_last, phi);
-    if (s.row == 4) front_first = std::min(front_first, phi), front_last = std::max(front_last, phi);
+    if (s.row == 0)
+      rear_last = std::max(rear_last, phi);
+    if (s.row == 4)
+      front_first = std::min(front_first, phi), front_last = std::max(front_last, phi);
     EXPECT_TRUE(s.row == 0 || s.row == 4);
   }
   // reference stations are 2.5° apart, ours 1.25°
@@ -96,7 +100,8 @@ TEST_F(SmoothCup, TurnsUnderATorqueCoupleAsTheIndependentProgramSays) {
   for (int k = -4; k <= 6; ++k) {
     const double lo = std::max(-8.0, 2.5 * k - 1.25);
     const double hi = std::min(13.0, 2.5 * k + 1.25);
-    if (hi <= lo) continue;
+    if (hi <= lo)
+      continue;
     ToothFunctional part{k, {}};
     for (int row = 0; row < 7; ++row) {
       const double weight = simpson[static_cast<std::size_t>(row)] / 18;
@@ -106,7 +111,8 @@ TEST_F(SmoothCup, TurnsUnderATorqueCoupleAsTheIndependentProgramSays) {
     spread.push_back(part);
     share.push_back((hi - lo) / 21.0);
   }
-  const Eigen::VectorXd s = Eigen::Map<Eigen::VectorXd>(share.data(), static_cast<Eigen::Index>(share.size()));
+  const Eigen::VectorXd s =
+      Eigen::Map<Eigen::VectorXd>(share.data(), static_cast<Eigen::Index>(share.size()));
   ASSERT_NEAR(s.sum(), 1.0, 1e-12);
   const double frozen = s.dot(frozen_compliance(ring, assembled, spread) * s);
 
@@ -129,7 +135,8 @@ TEST_F(SmoothCup, TurnsUnderATorqueCoupleAsTheIndependentProgramSays) {
   for (const auto& [key, torque] : {std::pair{"0.7 Nm", 0.7}, {"3.5 Nm", 3.5}, {"7.0 Nm", 7.0}}) {
     const auto& expected = json["part_C"]["own_linear_exact_gap"][key];
     const double force = 247.245 * torque / 7.0;
-    EXPECT_NEAR(1e3 * frozen * force, expected["frozen_d_um"].get<double>(), 0.03 * expected["frozen_d_um"].get<double>());
+    EXPECT_NEAR(1e3 * frozen * force, expected["frozen_d_um"].get<double>(),
+                0.03 * expected["frozen_d_um"].get<double>());
     // θ is the displacement of the couple here (r = 1 mm), about the assembled state; small corrections by the exact gap
     // (0.2 %) are left out
     const ContactState state = solver.solve_torque(load.problem, force).value();

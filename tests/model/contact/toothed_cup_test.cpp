@@ -29,8 +29,10 @@ const UnitResponses& seed_responses() {
 }
 
 WaveGeneratorSurface seed_discs(bool linearised) {
-  return {WaveGeneratorSurface::Discs{
-              .eccentricity_mm = 0.6, .neutral_disc_radius_mm = 13.606, .linearised = linearised, .middle_z_mm = 24.5},
+  return {WaveGeneratorSurface::Discs{.eccentricity_mm = 0.6,
+                                      .neutral_disc_radius_mm = 13.606,
+                                      .linearised = linearised,
+                                      .middle_z_mm = 24.5},
           13.856, 0.15};
 }
 
@@ -39,7 +41,8 @@ Eigen::MatrixXd compliance_at(double radius_mm) {
   ContactSolver solver;
   const AssembledState assembled = assemble(ring, seed_discs(true), 0.0, solver).value();
   std::vector<ToothFunctional> teeth;
-  for (int tooth = -7; tooth <= 20; ++tooth) teeth.push_back(ring.tooth(tooth, radius_mm, 1.0, 0.0));
+  for (int tooth = -7; tooth <= 20; ++tooth)
+    teeth.push_back(ring.tooth(tooth, radius_mm, 1.0, 0.0));
   return frozen_compliance(ring, assembled, teeth);
 }
 
@@ -92,23 +95,26 @@ TEST_P(SeedGearLoadedAtTheTips, ReproducesTheIndependentColumn) {
                       .contact_radius_mm = json["contact_radius_mm"][i],
                       .flank_radius_mm = 14.584});
   }
-  const LoadProblem load =
-      column.unilateral ? unilateral_problem(ring, assembled, points) : linear_problem(ring, assembled, points);
+  const LoadProblem load = column.unilateral ? unilateral_problem(ring, assembled, points)
+                                             : linear_problem(ring, assembled, points);
   const double rotation[4] = {1e-3, 2e-3, 3.38e-3, 4.5e-3};
   for (int i = 0; i < 4; ++i) {
     ContactState state = solver.solve_at(load.problem, rotation[i]);
     if (column.unilateral && !column.linearised_gap) {
-      state = correct_to_exact_gap(ring, discs, assembled, load, state, Control::rotation, solver).value().state;
+      state =
+          correct_to_exact_gap(ring, discs, assembled, load, state, Control::rotation, solver).value().state;
     }
     EXPECT_NEAR(2e-3 * state.torque, column.torque_nm[i], 0.04 * column.torque_nm[i]) << rotation[i];
-    if (i != 2) continue;
+    if (i != 2)
+      continue;
     // 10 %: the footprint of our hats is wider than the reference's edge line, so the tooth is stiffer at its tip
     EXPECT_NEAR(state.force.head(load.point_count).maxCoeff(), column.peak_n, 0.10 * column.peak_n);
     double lo = 90.0;
     double hi = -90.0;
     const double tooth = 360.0 / 140.0;
     for (int k = 0; k < load.point_count; ++k) {
-      if (!(state.force(k) > 0.0)) continue;
+      if (!(state.force(k) > 0.0))
+        continue;
       lo = std::min(lo, tooth * points[static_cast<std::size_t>(k)].tooth);
       hi = std::max(hi, tooth * points[static_cast<std::size_t>(k)].tooth);
     }
@@ -120,7 +126,8 @@ TEST_P(SeedGearLoadedAtTheTips, ReproducesTheIndependentColumn) {
 INSTANTIATE_TEST_SUITE_P(Columns, SeedGearLoadedAtTheTips,
                          ::testing::Values(Column{false, true, {3.3, 7.9, 14.5, 19.9}, 84.0, -5.14, 15.43},
                                            Column{true, true, {2.79, 5.81, 11.3, 16.3}, 58.4, -10.29, 15.43},
-                                           Column{true, false, {3.02, 6.26, 11.85, 16.9}, 61.5, -7.71, 15.43}));
+                                           Column{
+                                               true, false, {3.02, 6.26, 11.85, 16.9}, 61.5, -7.71, 15.43}));
 
 } // namespace
 } // namespace strainwave

@@ -13,7 +13,8 @@ constexpr double inner = 13.856;
 constexpr double half = 0.15;
 
 WaveGeneratorSurface seed_discs(bool linearised = false) {
-  return {WaveGeneratorSurface::Discs{.eccentricity_mm = 0.6, .neutral_disc_radius_mm = 13.606, .linearised = linearised},
+  return {WaveGeneratorSurface::Discs{
+              .eccentricity_mm = 0.6, .neutral_disc_radius_mm = 13.606, .linearised = linearised},
           inner, half};
 }
 
@@ -66,7 +67,8 @@ TEST(WaveGeneratorSurface, CamGapIsTheDistanceToTheNearestPointOfTheEllipse) {
     const double h = std::pow((a - minor) / (a + minor), 2);
     return std::numbers::pi * (a + minor) * (1 + 3 * h / (10 + std::sqrt(4 - 3 * h)));
   };
-  for (int i = 0; i < 60; ++i) b -= (perimeter(b) - 2 * std::numbers::pi * 14.006) / std::numbers::pi;
+  for (int i = 0; i < 60; ++i)
+    b -= (perimeter(b) - 2 * std::numbers::pi * 14.006) / std::numbers::pi;
   const double phi = 0.7;
   const double w = 0.05;
   const double v = -0.06;
@@ -86,8 +88,12 @@ TEST(WaveGeneratorSurface, NormalIsTheDerivativeOfTheGap) {
   for (const WaveGeneratorSurface& surface : {seed_discs(), elliptic_cam()}) {
     const double h = 1e-5;
     const auto g = surface.gap(0.8, 24.5, 0.03, -0.07);
-    const double dw = (surface.gap(0.8, 24.5, 0.03 + h, -0.07).gap_mm - surface.gap(0.8, 24.5, 0.03 - h, -0.07).gap_mm) / (2 * h);
-    const double dv = (surface.gap(0.8, 24.5, 0.03, -0.07 + h).gap_mm - surface.gap(0.8, 24.5, 0.03, -0.07 - h).gap_mm) / (2 * h);
+    const double dw =
+        (surface.gap(0.8, 24.5, 0.03 + h, -0.07).gap_mm - surface.gap(0.8, 24.5, 0.03 - h, -0.07).gap_mm) /
+        (2 * h);
+    const double dv =
+        (surface.gap(0.8, 24.5, 0.03, -0.07 + h).gap_mm - surface.gap(0.8, 24.5, 0.03, -0.07 - h).gap_mm) /
+        (2 * h);
     // rounding of a 14 mm distance over 2e-5 mm: 1e-10; truncation h²/R² smaller still
     EXPECT_NEAR(g.radial, dw, 1e-9);
     EXPECT_NEAR(g.circumferential, dv, 1e-9);
@@ -96,9 +102,11 @@ TEST(WaveGeneratorSurface, NormalIsTheDerivativeOfTheGap) {
 }
 
 TEST(WaveGeneratorSurface, ConeMakesTheFrontOfTheDiscSmaller) {
-  const WaveGeneratorSurface cone(
-      WaveGeneratorSurface::Discs{.eccentricity_mm = 0.6, .neutral_disc_radius_mm = 13.606, .taper_per_mm = 0.002, .middle_z_mm = 24.5},
-      inner, half);
+  const WaveGeneratorSurface cone(WaveGeneratorSurface::Discs{.eccentricity_mm = 0.6,
+                                                              .neutral_disc_radius_mm = 13.606,
+                                                              .taper_per_mm = 0.002,
+                                                              .middle_z_mm = 24.5},
+                                  inner, half);
   const double middle = seed_discs().gap(0.1, 24.5, 0.2, 0.0).gap_mm;
   EXPECT_NEAR(cone.gap(0.1, 24.5, 0.2, 0.0).gap_mm, middle, 1e-14);
   EXPECT_NEAR(cone.gap(0.1, 26.5, 0.2, 0.0).gap_mm, middle + 0.004, 1e-14);

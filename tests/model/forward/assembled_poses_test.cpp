@@ -32,7 +32,8 @@ Difference largest_difference(double up_to_deg) {
     return unit_responses(request).value();
   }();
   const RingCompliance ring(responses, {22.5, 24.5, 26.5}, true);
-  const WaveGeneratorSurface discs({.eccentricity_mm = 0.6, .neutral_disc_radius_mm = 13.606, .middle_z_mm = 24.5}, 13.856, 0.15);
+  const WaveGeneratorSurface discs(
+      {.eccentricity_mm = 0.6, .neutral_disc_radius_mm = 13.606, .middle_z_mm = 24.5}, 13.856, 0.15);
   ContactSolver solver;
   const AssembledState assembled = assemble(ring, discs, 0.0, solver).value();
   const auto json = testing::reference("assembly.json");
@@ -41,7 +42,8 @@ Difference largest_difference(double up_to_deg) {
     const AssembledPoses poses(ring, assembled, 14.006, 0.0, {std::stod(z)});
     for (const auto& point : json["runs"]["n2z"]["stations"][z]) {
       const double degrees = point["phi_deg"];
-      if (degrees > up_to_deg) continue;
+      if (degrees > up_to_deg)
+        continue;
       const double phi = degrees * std::numbers::pi / 180.0;
       const Pose pose = poses.pose(static_cast<int>(std::lround(degrees / 2.5)), phi, 0);
       const double expected_rho = 14.006 + point["rho_minus_rm_mm"].get<double>();
@@ -49,8 +51,8 @@ Difference largest_difference(double up_to_deg) {
       largest.tangential_um =
           std::max(largest.tangential_um,
                    1e3 * 14.006 * std::abs(pose.phi1_rad - phi - point["phi1_minus_phi_rad"].get<double>()));
-      largest.rotation_rad =
-          std::max(largest.rotation_rad, std::abs(pose.normal_rotation_rad - point["theta_n_rad"].get<double>()));
+      largest.rotation_rad = std::max(
+          largest.rotation_rad, std::abs(pose.normal_rotation_rad - point["theta_n_rad"].get<double>()));
     }
   }
   return largest;
@@ -85,7 +87,8 @@ TEST(AssembledPoses, BetweenTeethPassesThroughTheTeeth) {
   request.estimate = false;
   const UnitResponses responses = unit_responses(request).value();
   const RingCompliance ring(responses, {22.5, 24.5, 26.5}, true);
-  const WaveGeneratorSurface discs({.eccentricity_mm = 0.6, .neutral_disc_radius_mm = 13.606, .middle_z_mm = 24.5}, 13.856, 0.15);
+  const WaveGeneratorSurface discs(
+      {.eccentricity_mm = 0.6, .neutral_disc_radius_mm = 13.606, .middle_z_mm = 24.5}, 13.856, 0.15);
   ContactSolver solver;
   const AssembledState assembled = assemble(ring, discs, 0.25, solver).value();
   const AssembledPoses poses(ring, assembled, 14.006, 0.25, {24.5});

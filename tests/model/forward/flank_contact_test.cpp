@@ -45,7 +45,8 @@ TEST(FlankContact, SelectionGivesTheSolutionOfAllPointsAtOnce) {
 
   const LoadProblem all = unilateral_problem(ring, *assembled, points);
   const ContactState start = solver.solve_torque(all.problem, 3.5e3).value();
-  const ExactLoad exact = correct_to_exact_gap(ring, discs, *assembled, all, start, Control::torque, solver).value();
+  const ExactLoad exact =
+      correct_to_exact_gap(ring, discs, *assembled, all, start, Control::torque, solver).value();
   EXPECT_NEAR(load.rotation_rad, exact.state.rotation, 1e-12);
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_NEAR(load.force_n[i], exact.state.force(static_cast<Eigen::Index>(i)), 1e-7) << i;
@@ -59,7 +60,8 @@ TEST(FlankContact, PointsOfAToothAddUpToItsForceAndNoneOverlaps) {
   const LoadResult& load = result.load[0];
   double teeth = 0.0;
   double points = 0.0;
-  for (const double f : load.force_n) teeth += f;
+  for (const double f : load.force_n)
+    teeth += f;
   for (std::size_t i = 0; i < load.points.force_n.size(); ++i) {
     points += load.points.force_n[i];
     EXPECT_GE(load.points.force_n[i], 0.0);

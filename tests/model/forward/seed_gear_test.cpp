@@ -55,7 +55,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(SeedGearLoad, FirstToothToEngageIsTheOneNearestToTheLeastBacklash) {
   const ForwardResult backlash = shared_model().analyze(seed_gear(), Want::backlash);
   const double first = backlash.backlash->min_um * 1e-3 / 14.7714;
-  const ForwardResult result = shared_model().analyze(seed_at({first * 1.05}, Fidelity::unilateral, DiscGap::exact));
+  const ForwardResult result =
+      shared_model().analyze(seed_at({first * 1.05}, Fidelity::unilateral, DiscGap::exact));
   ASSERT_EQ(result.load[0].engaged_count, 1);
   EXPECT_NEAR(result.load[0].peak_phi_deg, 2 * 360.0 / 140.0, 1e-9); // 5.14°, nearest to 5.22°
 }

@@ -9,7 +9,8 @@ namespace {
 
 StageStatus status_of(const ForwardResult& result, const std::string& name) {
   for (const Stage& stage : result.stages) {
-    if (stage.name == name) return stage.status;
+    if (stage.name == name)
+      return stage.status;
   }
   ADD_FAILURE() << "no stage " << name;
   return StageStatus::skipped;
@@ -35,7 +36,10 @@ TEST(Stages, OnlyTheCupRunsTheFiniteElementsAgain) {
       {"tip relief", [](Gear& g) { g.flank_modification.flexspline.tip_relief_um = 3.0; }},
       {"load", [](Gear& g) { g.load.torque_nm = {2.5}; }},
       {"phases", [](Gear& g) { g.load.phases = 2; }},
-      {"window", [](Gear& g) { g.contact.window_deg = {-21.0, 51.0}; }},
+      {"window",
+       [](Gear& g) {
+         g.contact.window_deg = {-21.0, 51.0};
+       }},
       {"circular spline", [](Gear& g) { g.circular_spline.profile_shift = 2.2; }}};
   for (const auto& [name, change] : changes) {
     Gear gear = seed_gear();

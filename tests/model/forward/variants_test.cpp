@@ -55,7 +55,8 @@ TEST(Variants, ForcesCarryTheTorqueThatWasAskedFor) {
     double torque = 0.0;
     for (std::size_t i = 0; i < load.tooth.size(); ++i) {
       for (std::size_t j = 0; j < result.backlash->tooth.size(); ++j) {
-        if (result.backlash->tooth[j] == load.tooth[i]) torque += 2e-3 * load.force_n[i] * result.backlash->contact_radius_mm[j];
+        if (result.backlash->tooth[j] == load.tooth[i])
+          torque += 2e-3 * load.force_n[i] * result.backlash->contact_radius_mm[j];
       }
     }
     EXPECT_NEAR(torque, gear.load.torque_nm[k], 1e-10 * torque);
@@ -63,10 +64,12 @@ TEST(Variants, ForcesCarryTheTorqueThatWasAskedFor) {
 }
 
 TEST(Variants, EveryShapeWithASurfaceAnalyses) {
-  for (const WaveGeneratorShape shape : {WaveGeneratorShape::two_disc, WaveGeneratorShape::ellipse, WaveGeneratorShape::cosine}) {
+  for (const WaveGeneratorShape shape :
+       {WaveGeneratorShape::two_disc, WaveGeneratorShape::ellipse, WaveGeneratorShape::cosine}) {
     Gear gear = seed_gear();
     gear.wave_generator.shape = shape;
-    if (shape != WaveGeneratorShape::two_disc) gear.wave_generator.eccentricity_mm.reset();
+    if (shape != WaveGeneratorShape::two_disc)
+      gear.wave_generator.eccentricity_mm.reset();
     gear.circular_spline.profile_shift = 2.25; // free of interference for all of them
     const ForwardResult result = model().analyze(gear);
     EXPECT_EQ(result.status, Status::ok) << static_cast<int>(shape) << ": " << result.message;
@@ -104,8 +107,9 @@ TEST(Variants, OddNumberOfTeethTreatsBothLobesUnfolded) {
   gear.flexspline.teeth = 141;
   gear.circular_spline.teeth = 143;
   // the same tooth form on pitch radii 0.1 mm larger
-  for (double* radius : {&gear.flexspline.tip_radius_mm, &gear.flexspline.root_radius_mm, &gear.flexspline.neutral_radius_mm,
-                         &gear.circular_spline.tip_radius_mm, &gear.circular_spline.root_radius_mm}) {
+  for (double* radius :
+       {&gear.flexspline.tip_radius_mm, &gear.flexspline.root_radius_mm, &gear.flexspline.neutral_radius_mm,
+        &gear.circular_spline.tip_radius_mm, &gear.circular_spline.root_radius_mm}) {
     *radius += 0.1;
   }
   gear.load.torque_nm = {7.0};
@@ -113,7 +117,8 @@ TEST(Variants, OddNumberOfTeethTreatsBothLobesUnfolded) {
   ASSERT_EQ(odd.status, Status::ok) << odd.message;
   const ForwardResult even = model().analyze(seed_gear());
   // nearly the same gear: stiffness within 5 %, twice as many teeth in the list
-  EXPECT_NEAR(odd.stiffness->secant_nm_per_rad, even.stiffness->secant_nm_per_rad, 0.05 * even.stiffness->secant_nm_per_rad);
+  EXPECT_NEAR(odd.stiffness->secant_nm_per_rad, even.stiffness->secant_nm_per_rad,
+              0.05 * even.stiffness->secant_nm_per_rad);
   EXPECT_GT(odd.load[0].tooth.size(), 1.8 * static_cast<double>(even.load[1].tooth.size()));
   EXPECT_NEAR(odd.load[0].torque_nm, 7.0, 1e-9);
 }
@@ -127,7 +132,8 @@ TEST(Variants, UnfoldedEvenRingGivesTheFoldedForces) {
   gear.load.torque_nm = {1.5};
   const ForwardResult one = model().analyze(gear);
   ASSERT_EQ(one.status, Status::ok) << one.message;
-  EXPECT_GT(one.load[0].rotation_rad - one.stiffness->take_up_rad, two.load[0].rotation_rad - two.stiffness->take_up_rad);
+  EXPECT_GT(one.load[0].rotation_rad - one.stiffness->take_up_rad,
+            two.load[0].rotation_rad - two.stiffness->take_up_rad);
 }
 
 TEST(Variants, FlankNormalForceKeepsTheTorqueAndRaisesTheForce) {
@@ -137,7 +143,9 @@ TEST(Variants, FlankNormalForceKeepsTheTorqueAndRaisesTheForce) {
   gear.contact.force_direction = ForceDirection::flank_normal;
   const ForwardResult normal = model().analyze(gear);
   ASSERT_EQ(normal.status, Status::ok) << normal.message;
-  const auto sum = [](const LoadResult& load) { return std::accumulate(load.force_n.begin(), load.force_n.end(), 0.0); };
+  const auto sum = [](const LoadResult& load) {
+    return std::accumulate(load.force_n.begin(), load.force_n.end(), 0.0);
+  };
   // T = Σ F cos α′ R with α′ between 20° and 35° here
   EXPECT_GT(sum(normal.load[0]), sum(along.load[0]) / std::cos(0.35));
   EXPECT_LT(sum(normal.load[0]), sum(along.load[0]) / std::cos(0.65));
@@ -180,8 +188,8 @@ TEST(Variants, GearsWithoutAResultSayWhy) {
 
 TEST(Variants, JsonHasTheKeysOfTheInterfaceAndNullWhereFlanksDoNotMeet) {
   const auto json = nlohmann::json::parse(result_json_text(model().analyze(seed_gear())));
-  for (const char* key : {"gear", "fidelity", "version", "status", "message", "wave_generator", "backlash", "assembly",
-                          "compliance", "load", "stiffness", "certificate", "stages"}) {
+  for (const char* key : {"gear", "fidelity", "version", "status", "message", "wave_generator", "backlash",
+                          "assembly", "compliance", "load", "stiffness", "certificate", "stages"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   EXPECT_EQ(json["status"], "ok");
