@@ -62,6 +62,7 @@ ExitCode analyze(const AnalyzeOptions& options) {
   const Want want = options.only == "backlash"     ? Want::backlash
                     : options.only == "compliance" ? Want::compliance
                                                    : Want::load;
+  refuse_to_replace(options.out, {options.file, gear.wave_generator.table_file});
   ForwardModel model({.disk_cache = !options.no_cache, .threads = options.threads});
   const ForwardResult result = model.analyze(gear, want);
   for (const std::string& warning : result.warnings)

@@ -92,6 +92,8 @@ ExitCode export_gear(const ExportOptions& options) {
     gear.load.rotation_rad.clear();
     gear.load.torque_nm = options.torque_nm;
   }
+  for (const std::string& output : {options.calculix, options.vtkhdf, options.profile})
+    refuse_to_replace(output, {options.file, gear.wave_generator.table_file});
   if (const auto contradiction = find_contradiction(gear))
     return no_result(*contradiction);
   if (!options.calculix.empty())

@@ -154,7 +154,7 @@ std::string result_table(const ForwardResult& result) {
                    std::isfinite(s->lost_motion_arcmin) ? fmt::format("{:.3f}′", s->lost_motion_arcmin)
                                                         : std::string("none (flanks interfere)"));
   }
-  if (result.certificate)
+  if (result.certificate && !result.load.empty())
     certificate(*result.certificate, out);
   fmt::format_to(out, "Stages         ");
   for (const Stage& stage : result.stages) {

@@ -41,6 +41,8 @@ ExitCode run(const StudyOptions& options) {
   const StudyFile study = load_study(options.file, options.reduced, study_vocabulary());
   const ResultFolder folder(options.out.empty() ? default_result_folder(study)
                                                 : std::filesystem::path(options.out));
+  if (const std::string reason = folder.occupied(study); !reason.empty())
+    throw UsageError(reason);
   folder.write_plan(study);
 
   const auto responses = gear_responses();
@@ -57,7 +59,8 @@ ExitCode run(const StudyOptions& options) {
     report(report_now.failure().message);
     return ExitCode::no_result;
   }
-  folder.write_results(*report_now);
+  if (!folder.write_results(*report_now))
+    report("the folder keeps the finished result of an earlier run; this one was stopped early");
   const std::string name = folder.path().string();
   print(options.json ? optimisation_json(*report_now, name).dump(2) + "\n"
                      : optimisation_table(*report_now, name));

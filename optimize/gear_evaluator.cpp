@@ -13,18 +13,17 @@ Evaluation failed(std::string status, std::string message) {
   return evaluation;
 }
 
-/// By load, phase and tooth number, which runs from −z/2 − 1 to z/2 + 1 whether the tooth reaches the
-/// circular spline or not.
+/// By load, phase and tooth number modulo z, whether the tooth reaches the circular spline or not.
 std::vector<double> tooth_forces(const Gear& gear, const std::vector<ForwardResult>& results) {
-  const int half = gear.flexspline.teeth / 2 + 1;
+  const int z = gear.flexspline.teeth;
   std::vector<double> forces;
   for (const ForwardResult& result : results) {
     for (const LoadResult& load : result.load) {
       for (const PhaseForces& phase : load.phases) {
         const std::size_t first = forces.size();
-        forces.resize(first + static_cast<std::size_t>(2 * half + 1), 0.0);
+        forces.resize(first + static_cast<std::size_t>(z), 0.0);
         for (std::size_t i = 0; i < phase.tooth.size(); ++i)
-          forces[first + static_cast<std::size_t>(phase.tooth[i] + half)] = phase.force_n[i];
+          forces[first + static_cast<std::size_t>((phase.tooth[i] % z + z) % z)] = phase.force_n[i];
       }
     }
   }

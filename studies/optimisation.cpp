@@ -80,6 +80,17 @@ Gear gear_of(const OptimisationReport& report, const DesignSpace& design, const 
     return report.study.gear;
   Gear gear = design.apply(report.study.gear, design.unscaled(judgement.best->y));
   gear.name = report.study.gear.name + ", optimised";
+  // the study's loads, so that an analysis of this gear gives the study's numbers
+  gear.load.torque_nm.clear();
+  gear.load.rotation_rad.clear();
+  gear.load.phases = 1;
+  for (const LoadCase& load : report.study.load_cases) {
+    if (load.torque_nm)
+      gear.load.torque_nm.push_back(*load.torque_nm);
+    if (load.rotation_rad)
+      gear.load.rotation_rad.push_back(*load.rotation_rad);
+    gear.load.phases = std::max(gear.load.phases, load.phases);
+  }
   return gear;
 }
 

@@ -61,7 +61,7 @@ struct OptimisationReport {
   std::vector<InputChange> inputs; ///< variables first, then linked numbers
   Evaluation baseline;
   std::optional<Evaluation> best; ///< by a fresh evaluation; nothing if no design could be evaluated
-  std::optional<Gear> best_gear;  ///< with the study's loads left as they are in the gear
+  std::optional<Gear> best_gear;  ///< with the study's loads and phases in its [load]
   std::vector<LimitReport> limits;
   std::vector<FrontPoint> front; ///< pareto; `best` is its first design then
   Certificate certificate_worst;

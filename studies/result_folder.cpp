@@ -33,6 +33,20 @@ void ResultFolder::write_text(const char* name, std::string_view text) const {
   fs::rename(beside, target);
 }
 
+std::string ResultFolder::occupied(const StudyFile& study) const {
+  if (fs::is_empty(path_))
+    return {};
+  std::ifstream file(path_ / "plan.json");
+  const auto plan = nlohmann::json::parse(file, nullptr, false);
+  if (!plan.is_object() || !plan.contains("hash"))
+    return fmt::format("{} is not empty and not the folder of a study; give another one with --out", path_.string());
+  if (plan["hash"] != plan_hash(study))
+    return fmt::format("{} holds the results of another study (or of an earlier state of this one); give another "
+                       "folder with --out, or remove it",
+                       path_.string());
+  return {};
+}
+
 void ResultFolder::write_plan(const StudyFile& study) const {
   nlohmann::ordered_json plan;
   plan["kind"] = study.kind == StudyKind::pareto ? "pareto" : "optimize";
@@ -49,11 +63,18 @@ void ResultFolder::write_plan(const StudyFile& study) const {
   write_text("plan.json", plan.dump(2) + "\n");
 }
 
-void ResultFolder::write_results(const OptimisationReport& report) const {
+bool ResultFolder::write_results(const OptimisationReport& report) const {
+  if (report.verdict == Verdict::stopped) {
+    std::ifstream file(path_ / "result.json");
+    const auto earlier = nlohmann::json::parse(file, nullptr, false);
+    if (earlier.is_object() && earlier.value("verdict", "stopped") != "stopped")
+      return false;
+  }
   write_results_file(report, path_ / "results.h5");
   write_text("result.json", optimisation_json(report, path_.string()).dump(2) + "\n");
   if (report.best_gear)
     write_text("best.toml", write_gear(*report.best_gear));
+  return true;
 }
 
 std::string plan_hash(const StudyFile& study) {

@@ -21,8 +21,11 @@ public:
   explicit ResultFolder(std::filesystem::path path);
 
   const std::filesystem::path& path() const { return path_; }
+  /// Why this folder is not to be written by this study: it holds the results of another one, or other files. Empty: it may.
+  std::string occupied(const StudyFile& study) const;
   void write_plan(const StudyFile& study) const;
-  void write_results(const OptimisationReport& report) const;
+  /// False, and nothing written, when the run was stopped early and the folder already has a finished result.
+  bool write_results(const OptimisationReport& report) const;
 
 private:
   void write_text(const char* name, std::string_view text) const;

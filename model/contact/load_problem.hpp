@@ -54,8 +54,8 @@ LoadProblem linear_problem(const RingCompliance& ring, const AssembledState& ass
 LoadProblem unilateral_problem(const RingCompliance& ring, const AssembledState& assembled,
                                std::span<const LoadedPoint> points);
 
-/// A load state corrected to the exact gap by Newton steps around the LCP: at constant torque (drive = true keeps
-/// torque) or constant rotation.
+/// A load state corrected to the exact gap by Newton steps around the LCP: at constant torque or
+/// constant rotation.
 struct ExactLoad {
   ContactState state;
   int newton_steps = 0;

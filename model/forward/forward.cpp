@@ -33,12 +33,21 @@ class StageClock {
 public:
   StageClock(ForwardResult& result, std::string name)
       : result_(result), name_(std::move(name)), start_(std::chrono::steady_clock::now()) {}
+  /// A stage that ends without done() has run and failed.
+  ~StageClock() {
+    if (!noted_)
+      done(StageStatus::computed);
+  }
+  StageClock(const StageClock&) = delete;
+  StageClock& operator=(const StageClock&) = delete;
   void done(StageStatus status) {
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
     result_.stages.push_back({name_, spent.count(), status});
+    noted_ = true;
   }
 
 private:
+  bool noted_ = false;
   ForwardResult& result_;
   std::string name_;
   std::chrono::steady_clock::time_point start_;
@@ -51,6 +60,22 @@ WaveGeneratorResult describe(const NeutralCurve& curve) {
           .eccentricity_mm = s.eccentricity_mm.value_or(0.0),
           .u90_mm = s.u90_mm,
           .shape = std::string(choice_name(curve.shape()))};
+}
+
+/// D is symmetric by construction, so its own transpose proves nothing. Three of its columns (first, middle, last tooth) are
+/// found again from a unit force and the reaction of the held wall, and compared with the rows; relative.
+double reciprocity_error(const RingCompliance& ring, const AssembledState& assembled,
+                         const std::vector<LoadedPoint>& teeth, const Eigen::MatrixXd& d) {
+  const std::vector<ToothFunctional> functionals = tooth_functionals(ring, teeth);
+  double error = 0.0;
+  for (const Eigen::Index j : {Eigen::Index{0}, d.rows() / 2, d.rows() - 1}) {
+    const Eigen::VectorXd unit = Eigen::VectorXd::Unit(d.rows(), j);
+    const Eigen::VectorXd column =
+        ring.tooth_displacement(functionals, functionals, unit) -
+        ring.tooth_displacement(functionals, assembled.stations, frozen_reaction(ring, assembled, functionals, unit));
+    error = std::max(error, (column.transpose() - d.row(j)).cwiseAbs().maxCoeff());
+  }
+  return error / d.cwiseAbs().maxCoeff();
 }
 
 /// The ring keeps the responses that it refers to alive.
@@ -95,7 +120,16 @@ public:
   }
 
   Outcome<ContactStates> contact_states() {
-    if (auto failure = guarded_stages())
+    try {
+      return unguarded_contact_states();
+    } catch (const NotPositiveDefinite& error) {
+      return ill_conditioned(error);
+    }
+  }
+
+private:
+  Outcome<ContactStates> unguarded_contact_states() {
+    if (auto failure = stages())
       return *failure;
     const auto model = phase_model(0.0);
     if (!model)
@@ -130,20 +164,22 @@ public:
     return result;
   }
 
-private:
   /// A compliance that is not positive definite is one that rounding has eaten up: data of this gear, not our bug.
+  Failure ill_conditioned(const NotPositiveDefinite& error) const {
+    return {Status::ill_conditioned,
+            fmt::format(
+                "the contact of flexspline and wave generator cannot be solved in double precision: its "
+                "compliance has the pivot {:.3g} mm/N (unknown {}); a thickness or contact_width_mm {} is too "
+                "small, or youngs_modulus_mpa {} or poisson_ratio {} too extreme, for this cup and mesh",
+                error.pivot, error.index, gear_.wave_generator.contact_width_mm,
+                gear_.material.youngs_modulus_mpa, gear_.material.poisson_ratio)};
+  }
+
   std::optional<Failure> guarded_stages() {
     try {
       return stages();
     } catch (const NotPositiveDefinite& error) {
-      return Failure{
-          Status::ill_conditioned,
-          fmt::format(
-              "the contact of flexspline and wave generator cannot be solved in double precision: its "
-              "compliance has the pivot {:.3g} mm/N (unknown {}); a thickness or contact_width_mm {} is too "
-              "small, or youngs_modulus_mpa {} or poisson_ratio {} too extreme, for this cup and mesh",
-              error.pivot, error.index, gear_.wave_generator.contact_width_mm,
-              gear_.material.youngs_modulus_mpa, gear_.material.poisson_ratio)};
+      return ill_conditioned(error);
     }
   }
 
@@ -173,7 +209,8 @@ private:
 
   std::optional<Failure> kinematics() {
     StageClock clock(result_, "kinematics");
-    const auto [curve, reused] = state_.curves.get(curve_key(gear_.wave_generator, gear_.flexspline), [&] {
+    curve_key_ = curve_key(gear_.wave_generator, gear_.flexspline);
+    const auto [curve, reused] = state_.curves.get(curve_key_, [&] {
       return std::make_shared<const Outcome<NeutralCurve>>(
           NeutralCurve::make(gear_.wave_generator, gear_.flexspline));
     });
@@ -260,7 +297,7 @@ private:
   /// The cup on the wave generator at a meshing phase.
   Outcome<std::shared_ptr<const AssembledState>> assembly(double phase, bool* reused = nullptr) {
     ContentKey key = ring_key_;
-    key.add(curve_key(gear_.wave_generator, gear_.flexspline).bits());
+    key.add(curve_key_.bits());
     key.add(gear_.wave_generator.disc_taper_um)
         .add(static_cast<double>(gear_.contact.disc_gap))
         .add(disc_shift_)
@@ -276,14 +313,14 @@ private:
       return std::make_shared<const Outcome<AssembledState>>(assemble(ring, *surface_, phase, solver));
     });
     if (reused)
-      *reused = known;
+      *reused = *reused && known;
     if (!*state)
       return state->failure();
     return std::shared_ptr<const AssembledState>(state, &state->value());
   }
 
   /// Moves the discs until the neutral surface stands at u0 in the reference section, by the secant method.
-  std::optional<Failure> shift_discs() {
+  std::optional<Failure> shift_discs(bool& reused) {
     if (!gear_.contact.reference_section_mm)
       return std::nullopt;
     constexpr double tolerance_mm = 1e-9;
@@ -291,7 +328,7 @@ private:
     double excess_before = 0.0;
     for (int step = 0; step < 30; ++step) {
       surface_ = surface_of(gear_, **curve_, disc_shift_);
-      const auto assembled = assembly(0.0);
+      const auto assembled = assembly(0.0, &reused);
       if (!assembled)
         return assembled.failure();
       const AssembledPoses poses(ring_->compliance, **assembled, gear_.flexspline.neutral_radius_mm, 0.0,
@@ -314,9 +351,9 @@ private:
 
   std::optional<Failure> first_assembly() {
     StageClock clock(result_, "assembly");
-    if (auto failure = shift_discs())
+    bool reused = true;
+    if (auto failure = shift_discs(reused))
       return failure;
-    bool reused = false;
     const auto assembled = assembly(0.0, &reused);
     if (!assembled)
       return assembled.failure();
@@ -403,9 +440,13 @@ private:
       for (Eigen::Index j = 0; j < d.cols(); ++j)
         out.matrix_um_per_n.back().push_back(1e3 * d(i, j));
     }
-    out.reciprocity_error = (d - d.transpose()).cwiseAbs().maxCoeff() / d.cwiseAbs().maxCoeff();
+    out.reciprocity_error = reciprocity_error(ring, **assembled, of_teeth, d);
     result_.compliance = std::move(out);
     clock.done(StageStatus::computed);
+    if (want_ == Want::compliance) {
+      if (const auto flaw = result_.certificate->find_flaw())
+        return Failure{Status::certificate_failed, "the certificate does not hold: " + *flaw};
+    }
     return std::nullopt;
   }
 
@@ -447,6 +488,7 @@ private:
   std::shared_ptr<const Outcome<NeutralCurve>> curve_;
   std::map<double, Backlash> tables_;
   bool fold_ = true;
+  ContentKey curve_key_;
   ContentKey ring_key_;
   std::shared_ptr<const Ring> ring_;
   std::optional<WaveGeneratorSurface> surface_;

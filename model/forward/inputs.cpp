@@ -64,6 +64,12 @@ std::optional<Failure> find_unavailable(const Gear& gear) {
                                   gear.wave_generator.shape == WaveGeneratorShape::two_disc_exact)) {
     return refuse("contact.reference_section_mm shifts the two discs; this wave generator has none");
   }
+  if (gear.wave_generator.disc_taper_um != 0.0 &&
+      gear.wave_generator.shape != WaveGeneratorShape::two_disc &&
+      gear.wave_generator.shape != WaveGeneratorShape::two_disc_exact) {
+    return refuse(fmt::format("wave_generator.disc_taper_um {} µm is a cone of the two discs; this wave generator has none",
+                              gear.wave_generator.disc_taper_um));
+  }
   if (gear.wave_generator.shape == WaveGeneratorShape::four_force && c.fidelity != Fidelity::linear) {
     return refuse(
         "a four_force wave generator has no surface to lift off from; use contact.fidelity = \"linear\"");

@@ -20,10 +20,6 @@ struct Asked {
   double value = 0.0;
 };
 
-/// The drive-side phase that mirrors phase s of the coast side.
-double mirrored_phase(double s) {
-  return s == 0.0 ? 0.0 : 1.0 - s;
-}
 int mirrored_tooth(int tooth, double phase) {
   return phase == 0.0 ? -tooth : -1 - tooth;
 }
@@ -47,7 +43,7 @@ LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction dir
     const int tooth = coast ? mirrored_tooth(point.tooth, phase) : point.tooth;
     if (result.tooth.empty() || result.tooth.back() != tooth) {
       result.tooth.push_back(tooth);
-      result.phi_deg.push_back((coast ? -point.phi_rad : point.phi_rad) / degree);
+      result.phi_deg.push_back((coast ? 0.0 - point.phi_rad : point.phi_rad) / degree); // 0 − 0 has no sign
       result.force_n.push_back(0.0);
       result.loaded_backlash_um.push_back(load.gap_um[i]);
     }
@@ -64,9 +60,11 @@ LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction dir
   for (std::size_t i = 0; i < result.tooth.size(); ++i) {
     if (!(result.force_n[i] > 0.0))
       continue;
-    if (result.engaged_count++ == 0)
-      result.engaged_lo_deg = result.phi_deg[i];
-    result.engaged_hi_deg = result.phi_deg[i];
+    // seen from the tooth's own lobe: with an odd number of teeth both are listed
+    const double own = result.phi_deg[i] - 180.0 * std::round(result.phi_deg[i] / 180.0);
+    result.engaged_lo_deg = result.engaged_count == 0 ? own : std::min(result.engaged_lo_deg, own);
+    result.engaged_hi_deg = result.engaged_count == 0 ? own : std::max(result.engaged_hi_deg, own);
+    ++result.engaged_count;
     if (result.force_n[i] > result.peak_force_n) {
       result.peak_force_n = result.force_n[i];
       result.peak_phi_deg = result.phi_deg[i];
@@ -122,7 +120,9 @@ private:
     double most_rotation = -least_rotation;
     for (int j = 0; j < gear_.load.phases; ++j) {
       const double phase = static_cast<double>(j) / gear_.load.phases;
-      const auto model = source_(direction == Direction::coast ? mirrored_phase(phase) : phase);
+      // the drive-side phase that mirrors it, to the same bits as phase n − j
+      const int mirrored = direction == Direction::coast && j > 0 ? gear_.load.phases - j : j;
+      const auto model = source_(static_cast<double>(mirrored) / gear_.load.phases);
       if (!model)
         return model.failure();
       const auto load = solve(**model, asked);
@@ -139,11 +139,28 @@ private:
       worst->transmission_error_arcsec = (most_rotation - least_rotation) / arcsec;
     }
     if (worst->engaged_count == 0 && !asked.torque) {
-      result_.message = fmt::format("no tooth is in contact at a rotation of {:.6g} rad", asked.value);
+      say(fmt::format("no tooth is in contact at a rotation of {:.6g} rad", asked.value));
     }
+    warn_of_slipping(most_rotation);
     worst->phases = std::move(phases);
     result_.load.push_back(std::move(*worst));
     return std::nullopt;
+  }
+
+  /// One more sentence beside the numbers.
+  void say(const std::string& sentence) {
+    if (result_.message.find(sentence) == std::string::npos)
+      result_.message += (result_.message.empty() ? "" : "; ") + sentence;
+  }
+
+  /// Beyond half a pitch of the circular spline a tooth has reached the next space: no drive works there.
+  void warn_of_slipping(double rotation_rad) {
+    const double half_pitch = std::numbers::pi / gear_.circular_spline.teeth;
+    if (rotation_rad <= half_pitch)
+      return;
+    say(fmt::format("a load turns the circular spline by {:.4g} rad, more than half a tooth pitch ({:.4g} rad): outside of "
+                    "what this model and any gear can do; is the load right, and youngs_modulus_mpa {} in MPa?",
+                    rotation_rad, half_pitch, gear_.material.youngs_modulus_mpa));
   }
 
   /// At meshing phase 0, where drive and coast side are mirror images.
@@ -165,9 +182,9 @@ private:
     s.wind_up_rad = at_rated->rotation_rad - s.take_up_rad;
     if (!(s.wind_up_rad >
           0.0)) { // interference at rest holds the rated torque, or it is nothing beside rounding
-      result_.message += fmt::format(
-          "{}no torsional stiffness: the rated torque {} N·m is reached at {:.6g} rad, take-up is {:.6g} rad",
-          result_.message.empty() ? "" : "; ", rated, at_rated->rotation_rad, s.take_up_rad);
+      say(fmt::format(
+          "no torsional stiffness: the rated torque {} N·m is reached at {:.6g} rad, take-up is {:.6g} rad",
+          rated, at_rated->rotation_rad, s.take_up_rad));
       return std::nullopt;
     }
     s.secant_nm_per_rad = rated / s.wind_up_rad;
@@ -175,12 +192,9 @@ private:
     if (const double overlap = (*model)->least_take_up_rad(); overlap < 0.0) {
       // Between interfering flanks both sides carry at once; this model has the drive flanks alone.
       s.lost_motion_arcmin = std::numeric_limits<double>::quiet_NaN();
-      if (result_.message.empty()) {
-        result_.message = fmt::format(
-            "flanks interfere before any load (by up to {:.3g} rad of rotation): the coast flanks, which "
-            "then touch too, are not part of this solution, and there is no lost motion to state",
-            -overlap);
-      }
+      say(fmt::format("flanks interfere before any load (by up to {:.3g} rad of rotation): the coast flanks, which "
+                      "then touch too, are not part of this solution, and there is no lost motion to state",
+                      -overlap));
     }
     result_.stiffness = s;
     return std::nullopt;

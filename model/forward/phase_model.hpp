@@ -1,6 +1,6 @@
 #pragma once
 // One meshing phase of the loaded pair: the points that may carry load, with their backlash, the cup assembled at this
-// phase, and the LCP made from both. Solves single loads; what the whole analysis makes of them is forward.cpp's business.
+// phase, and the LCP made from both. Solves single loads; what the whole analysis makes of them is load_cases.hpp's business.
 //
 // With many points a tooth (heights × slices) most of them never touch. The LCP then holds a selection: at first the point
 // of least take-up of the half of all tooth slices that touch first. After a solve the gap of every other point is computed

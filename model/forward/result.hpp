@@ -1,7 +1,8 @@
 #pragma once
 // What a forward analysis returns, in the units of the surface: N, N·m, µm, mm, degrees, radians where named so.
-// Arrays run over teeth in ascending φ; angles of teeth lie in (−90°, 90°] of the first lobe (both lobes alike), or in
-// (−180°, 180°] when the lobes differ.
+// Arrays run over teeth in ascending φ. Angles of teeth lie in (−90°, 90°] of the first lobe when both lobes are alike (coast:
+// mirrored, [−90°, 90°)), and in (−90°, 270°] when they differ (odd number of teeth): both lobes are listed then, engaged_count
+// counts both, and the engaged zone is given as seen from each tooth's own lobe.
 
 #include "model/gear/gear.hpp"
 #include "model/gear/outcome.hpp"
@@ -45,7 +46,7 @@ struct AssemblyResult {
 
 struct ComplianceResult {
   std::vector<int> tooth;
-  std::vector<std::vector<double>> matrix_um_per_n; ///< contact frozen as assembled, both lobes loaded
+  std::vector<std::vector<double>> matrix_um_per_n; ///< contact frozen as assembled, all lobes of the gear's [contact] loaded
   double reciprocity_error = 0.0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// A forward result as the JSON object of `analyze --json`: keys and units as docs/json.md lists them; NaN becomes null.
+// A forward result as the JSON object of `analyze --json`: keys and units as docs/results.md lists them; NaN becomes null.
 
 #include "model/forward/result.hpp"
 

@@ -171,6 +171,12 @@ std::optional<Failure> find_in_wave_generator(const Gear& gear) {
   if (const auto& z = gear.contact.reference_section_mm; z && !(*z >= front - f.face_width_mm && *z <= front))
     return contradiction("contact.reference_section_mm {} must lie on the toothed face, from {} to {} mm", *z,
                          front - f.face_width_mm, front);
+  const double reach = f.tip_radius_mm + gear.wave_generator.max_radial_deformation_mm;
+  if (gear.wave_generator.shape != WaveGeneratorShape::table && reach >= gear.circular_spline.root_radius_mm)
+    return contradiction(
+        "the flexspline's teeth reach the ground of the circular spline's spaces at the major axis: "
+        "flexspline.tip_radius_mm {} + max_radial_deformation_mm {} = {} mm against circular_spline.root_radius_mm {} mm",
+        f.tip_radius_mm, gear.wave_generator.max_radial_deformation_mm, reach, gear.circular_spline.root_radius_mm);
   const double width = gear.wave_generator.contact_width_mm;
   if (!(width > 0.0))
     return contradiction("wave_generator.contact_width_mm {} is not a positive length", width);

@@ -123,8 +123,20 @@ TEST_F(Export, gear_that_contradicts_itself_ends_with_3_and_writes_nothing) {
     EXPECT_FALSE(fs::exists(folder / name));
 }
 
+TEST_F(Export, output_that_would_replace_the_gear_file_is_refused) {
+  std::ofstream(folder / "mine.toml") << changed("profile_shift", "2.13");
+  const std::string before = text_of(folder / "mine.toml");
+  for (const char* what : {"export mine.toml --vtkhdf mine.toml", "export mine.toml --calculix ./mine.toml",
+                           "analyze mine.toml -o mine.toml"}) {
+    const End end = run(what);
+    EXPECT_EQ(end.code, 2) << what;
+    EXPECT_NE(end.err.find("would be replaced"), std::string::npos) << end.err;
+    EXPECT_EQ(text_of(folder / "mine.toml"), before) << what;
+  }
+}
+
 TEST_F(Export, wave_generator_without_wrap_has_no_fields_and_no_profile_but_a_deck_of_its_cup) {
-  std::ofstream(folder / "bad.toml") << changed("max_radial_deformation_mm", "0.59"); // e/u0 = 1.02
+  std::ofstream(folder / "bad.toml") << changed("max_radial_deformation_mm", "0.1"); // e/u0 = 6
   EXPECT_EQ(run("export bad.toml --vtkhdf x.vtkhdf").code, 3);
   EXPECT_EQ(run("export bad.toml --profile x.dxf").code, 3);
   EXPECT_EQ(run("export bad.toml --calculix x.inp").code, 0);

@@ -43,7 +43,7 @@ TEST_F(StudyCommand, ReducedGalleryStudyEndsInAGearThatAnalyzeAccepts) {
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json["verdict"], "converged");
   EXPECT_EQ(json["folder"], "seed_optimize-reduced-result");
-  const End again = shell("PROGRAM analyze seed_optimize-reduced-result/best.toml --torque-nm 7 --json");
+  const End again = shell("PROGRAM analyze seed_optimize-reduced-result/best.toml --json");
   ASSERT_EQ(again.code, 0) << again.err;
   EXPECT_EQ(nlohmann::json::parse(again.out)["load"][0]["peak_force_n"],
             json["best"]["outputs"]["peak_force_n"]);
@@ -63,6 +63,18 @@ TEST_F(StudyCommand, TimeLimitStopsWith75) {
   EXPECT_EQ(end.code, 75) << end.err;
   EXPECT_NE(end.err.find("stopped"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(folder / "seed_optimize-result/plan.json"));
+}
+
+TEST_F(StudyCommand, FolderOfAnotherStudyAndFinishedResultsAreKept) {
+  const std::string first = "PROGRAM study run " + gallery + "seed_relief_only.toml --reduced --out kept";
+  ASSERT_EQ(shell(first).code, 0);
+  const std::string best = file_text((folder / "kept/best.toml").string());
+  const End other = shell("PROGRAM study run " + gallery + "seed_optimize.toml --reduced --out kept");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("another study"), std::string::npos) << other.err;
+  const End stopped = shell(first + " --time-limit 0.05");
+  EXPECT_EQ(stopped.code, 75) << stopped.err;
+  EXPECT_EQ(file_text((folder / "kept/best.toml").string()), best);
 }
 
 TEST_F(StudyCommand, SignalsStopWith75) {

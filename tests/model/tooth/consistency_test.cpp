@@ -69,6 +69,8 @@ TEST(Consistency, EveryContradictionHasItsSentence) {
       {"overlapping teeth",
        [](Gear& g) { g.flexspline.profile_shift = 4.0, g.flexspline.tip_radius_mm = 14.2; },
        Status::contradiction, "overlap at root_radius_mm"},
+      {"root clearance", [](Gear& g) { g.circular_spline.root_radius_mm = 14.7; }, Status::contradiction,
+       "reach the ground"},
       {"rim", [](Gear& g) { g.flexspline.rim_thickness_mm = 0.31; }, Status::contradiction, "14.161"},
       {"wall", [](Gear& g) { g.flexspline.wall_thickness_mm = -0.1; }, Status::contradiction,
        "wall_thickness_mm -0.1"},
