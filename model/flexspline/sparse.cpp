@@ -20,7 +20,7 @@ struct SparseCholesky::Content {
   Content() {
     openblas_set_num_threads(1);
     cholmod_start(&common);
-    common.supernodal = CHOLMOD_SUPERNODAL;
+    common.supernodal = STRAINWAVE_GPL ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL; // docs/licences.md
     common.final_ll = 1;
     common.print = 0;
     common.error_handler = nullptr;
@@ -171,6 +171,16 @@ Eigen::MatrixXd SparseCholesky::last_block(int first) const {
     if (static_cast<const int*>(f.Perm)[at] < first)
       throw std::logic_error("the factor's order mixes inside and boundary");
   Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
+  if (!f.is_super) {
+    const int* start = static_cast<const int*>(f.p);
+    const int* height = static_cast<const int*>(f.nz);
+    const int* row = static_cast<const int*>(f.i);
+    const double* value = static_cast<const double*>(f.x);
+    for (int c = first; c < n; ++c)
+      for (int k = start[c]; k < start[c] + height[c]; ++k)
+        block(row[k] - first, c - first) = value[k];
+    return block;
+  }
   const int* super = static_cast<const int*>(f.super);
   const int* row_start = static_cast<const int*>(f.pi);
   const int* value_start = static_cast<const int*>(f.px);
@@ -191,7 +201,7 @@ Eigen::MatrixXd SparseCholesky::last_block(int first) const {
 }
 
 double SparseCholesky::fill() const {
-  return static_cast<double>(content->factor->xsize);
+  return static_cast<double>(content->factor->is_super ? content->factor->xsize : content->factor->nzmax);
 }
 
 } // namespace strainwave
