@@ -74,7 +74,7 @@ ExitCode analyze(const AnalyzeOptions& options) {
     draw_figures(result, gear, want, model, options.plots);
   if (result.status == Status::ok)
     return ExitCode::done;
-  report(result.message);
+  report(options.file + ": " + result.message);
   return ExitCode::no_result;
 }
 

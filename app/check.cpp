@@ -26,11 +26,11 @@ ExitCode check(const std::string& file) {
   // `analyze`.
   const ForwardResult result = ForwardModel({.disk_cache = false}).analyze(gear, Want::backlash);
   if (result.status != Status::ok) {
-    report(result.message);
+    report(file + ": " + result.message);
     return ExitCode::no_result;
   }
   if (const auto unavailable = find_unavailable(gear)) {
-    report(unavailable->message);
+    report(file + ": " + unavailable->message);
     return ExitCode::no_result;
   }
   return ExitCode::done;

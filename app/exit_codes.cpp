@@ -19,7 +19,7 @@ namespace {
 std::string sentence_of(const std::filesystem::filesystem_error& error) {
   std::string sentence = error.code().message();
   if (!error.path1().empty())
-    sentence = error.path1().string() + ": " + sentence;
+    sentence = "cannot create or open " + error.path1().string() + ": " + sentence;
   return sentence;
 }
 

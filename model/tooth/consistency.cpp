@@ -111,8 +111,8 @@ std::optional<Failure> find_flank_contradiction(const Gear& gear) {
   if (!(thickness.flexspline_tip_mm > 0.0))
     return contradiction(
         "the flexspline tooth ends in a point below its tip circle: tip thickness {:.4g} mm at "
-        "tip_radius_mm {} with profile_shift {}",
-        thickness.flexspline_tip_mm, f.tip_radius_mm, f.profile_shift);
+        "tip_radius_mm {} with profile_shift {} (pitch radius module_mm {} * teeth {} / 2 = {:.5g} mm)",
+        thickness.flexspline_tip_mm, f.tip_radius_mm, f.profile_shift, f.module_mm, f.teeth, pitch);
   if (!(thickness.circular_spline_tip_mm > 0.0))
     return contradiction(
         "the circular-spline tooth ends in a point outside its tip circle: tip thickness {:.4g} mm at "

@@ -55,7 +55,7 @@ TEST(ExitCodes, FilesAndPermissionsAreTheEnvironment) {
                                                 std::make_error_code(std::errc::permission_denied));
   const End end = end_of(error);
   EXPECT_EQ(end.code, ExitCode::environment);
-  EXPECT_EQ(end.said, "strainwave: /no/permission: Permission denied\n");
+  EXPECT_EQ(end.said, "strainwave: cannot create or open /no/permission: Permission denied\n");
   EXPECT_EQ(end_of(std::system_error(ENOSPC, std::generic_category(), "cannot write x")).said,
             "strainwave: cannot write x: No space left on device\n");
 }
