@@ -66,18 +66,23 @@ TEST(CyclicNightly, equals_the_full_solution_on_the_seed_ring) {
 }
 
 TEST(Cyclic, responses_are_reciprocal) {
-  const UnitResponses responses = unit_responses(testing_bodies::broad_toothed_cup()).value();
-  EXPECT_LT(responses.reciprocity_error, 1e-12);
+  // As solved; unit_responses() then replaces each pair by its mean and reports this difference.
+  const ResponseRequest request = testing_bodies::broad_toothed_cup();
+  const SectorMesh mesh = sector_mesh(request.flexspline, request.mesh).value();
+  ResponseFunctionals plan = response_functionals(request, mesh);
+  UnitResponses& solved = plan.layout;
+  solved.data = cyclic_responses(mesh, request.material, plan.functionals);
   double worst = 0.0;
-  const int n = responses.count();
-  for (int k = 0; k < responses.sectors; ++k)
+  const int n = solved.count();
+  for (int k = 0; k < solved.sectors; ++k)
     for (int a = 0; a < n; ++a)
       for (int b = 0; b < n; ++b)
-        worst = std::max(worst, std::fabs(responses(k, a, b) - responses(-k, b, a)));
-  EXPECT_LT(worst, 1e-12 * largest(responses.data));
+        worst = std::max(worst, std::fabs(solved(k, a, b) - solved(-k, b, a)));
+  EXPECT_LT(worst, 1e-12 * largest(solved.data));
+  EXPECT_EQ(unit_responses(request).value().reciprocity_error, worst / largest(solved.data));
 }
 
-TEST(Cyclic, flank_compliance_is_symmetric_and_positive_definite) {
+TEST(Cyclic, flank_compliance_is_positive_definite) {
   ResponseRequest request = testing_bodies::broad_toothed_cup();
   request.flank_heights = 3;
   request.face_slices = 3;
@@ -89,7 +94,6 @@ TEST(Cyclic, flank_compliance_is_symmetric_and_positive_definite) {
       for (int a = 0; a < n; ++a)
         for (int b = 0; b < n; ++b)
           d(i * n + a, j * n + b) = g(i - j, a, b);
-  EXPECT_LT((d - d.transpose()).cwiseAbs().maxCoeff(), 1e-12 * d.cwiseAbs().maxCoeff());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(d);
   EXPECT_GT(eigen.eigenvalues()[0], 1e-9 * d.cwiseAbs().maxCoeff()) << "rounding is 1e-12";
 }
