@@ -1,5 +1,6 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
+#include "model/export/contact_file.hpp"
 #include "model/export/cup_deck.hpp"
 #include "model/export/cup_fields.hpp"
 #include "model/export/profile_csv.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 struct ExportOptions {
   std::string file;
-  std::string calculix, vtkhdf, profile;
+  std::string calculix, vtkhdf, profile, contact;
   UnitToothLoad load;
   std::string direction = "circumferential";
   bool contact_forces = false;
@@ -81,10 +82,21 @@ ExitCode write_profile(const Gear& gear, const ExportOptions& options) {
   return ExitCode::done;
 }
 
+ExitCode write_contact(const Gear& gear, const ExportOptions& options) {
+  ForwardModel model({.disk_cache = !options.no_cache});
+  const auto phases = model.phase_problems(gear);
+  if (!phases)
+    return no_result(phases.failure());
+  write_contact_file(*phases, write_gear(gear), options.contact);
+  return ExitCode::done;
+}
+
 ExitCode export_gear(const ExportOptions& options) {
-  if (options.calculix.empty() && options.vtkhdf.empty() && options.profile.empty())
+  if (options.calculix.empty() && options.vtkhdf.empty() && options.profile.empty() &&
+      options.contact.empty())
     throw UsageError(
-        "nothing to export; expected --calculix F.inp, --vtkhdf F.vtkhdf or --profile F.dxf (or F.csv)");
+        "nothing to export; expected --calculix F.inp, --vtkhdf F.vtkhdf, --profile F.dxf (or F.csv) or "
+        "--contact F.h5");
   if (!options.profile.empty() && !options.profile.ends_with(".dxf") && !options.profile.ends_with(".csv"))
     throw UsageError(fmt::format("--profile {}: the name must end in .dxf or .csv", options.profile));
   Gear gear = load_gear(options.file).gear;
@@ -92,7 +104,7 @@ ExitCode export_gear(const ExportOptions& options) {
     gear.load.rotation_rad.clear();
     gear.load.torque_nm = options.torque_nm;
   }
-  for (const std::string& output : {options.calculix, options.vtkhdf, options.profile})
+  for (const std::string& output : {options.calculix, options.vtkhdf, options.profile, options.contact})
     refuse_to_replace(output, {options.file, gear.wave_generator.table_file});
   if (const auto contradiction = find_contradiction(gear))
     return no_result(*contradiction);
@@ -101,6 +113,9 @@ ExitCode export_gear(const ExportOptions& options) {
       return end;
   if (!options.vtkhdf.empty())
     if (const ExitCode end = write_fields(gear, options); end != ExitCode::done)
+      return end;
+  if (!options.contact.empty())
+    if (const ExitCode end = write_contact(gear, options); end != ExitCode::done)
       return end;
   return options.profile.empty() ? ExitCode::done : write_profile(gear, options);
 }
@@ -120,6 +135,10 @@ void add_export(CLI::App& app, Command& chosen) {
   command->add_option("--vtkhdf", o->vtkhdf,
                       "Displacement, contact forces and stress of the whole cup (.vtkhdf)");
   command->add_option("--profile", o->profile, "Outlines of teeth and spaces (.dxf or .csv)");
+  command->add_option(
+      "--contact", o->contact,
+      "The contact problem itself, for other solvers: gaps, levers, compliance of every point and "
+      "phase (.h5)");
   command->add_option("--tooth", o->load.tooth, "Deck: tooth that carries 1 N (default 0)");
   command
       ->add_option("--height", o->load.flank_height, "Deck: where on the flank, 0 root … 1 tip (default 0.5)")

@@ -54,6 +54,37 @@ protected:
   fs::path folder;
 };
 
+TEST_F(Export, contact_problem_is_solved_by_another_program_to_the_same_forces) {
+  if (std::system("/usr/bin/python3 -c 'import h5py, scipy' 2> /dev/null") != 0)
+    GTEST_SKIP() << "needs python3-h5py and python3-scipy";
+  std::ofstream(folder / "linearised.toml") << coarse_seed().replace(coarse_seed().find("disc_gap = \"exact\""),
+                                                                     std::string("disc_gap = \"exact\"").size(),
+                                                                     "disc_gap = \"linearised\"");
+  ASSERT_EQ(run("export linearised.toml --contact contact.h5").code, 0);
+  const End analysed = run("analyze linearised.toml --json");
+  ASSERT_EQ(analysed.code, 0) << analysed.err;
+  std::ofstream(folder / "result.json") << analysed.out;
+  // gap = q − θ r + M z, z ≥ 0 by non-negative least squares: min |L⁻¹(q − θ r) + Lᵀ z|, M = L Lᵀ
+  std::ofstream(folder / "peer.py") << R"(
+import h5py, json, numpy as np
+from scipy.linalg import solve_triangular
+from scipy.optimize import nnls
+load = json.load(open("result.json"))["load"][0]
+p = h5py.File("contact.h5")["phase_0"]
+M, q, r = p["compliance"][:], p["gap"][:], p["lever"][:]
+L = np.linalg.cholesky(M)
+z, _ = nnls(L.T, -solve_triangular(L, q - load["rotation_rad"] * r, lower=True), maxiter=20000)
+n = len(p["tooth"])
+torque = 1e-3 * p["lobes"][0] * r @ z
+assert abs(torque - load["torque_nm"]) < 1e-6, torque
+theirs = dict(zip(load["tooth"], load["force_n"]))
+for tooth, force in zip(p["tooth"][:], z[:n]):
+    assert abs(theirs[int(tooth)] - force) < 1e-5, (tooth, force)
+assert max(z[:n]) > 10
+)";
+  EXPECT_EQ(std::system(fmt::format("cd '{}' && /usr/bin/python3 peer.py", folder.string()).c_str()), 0);
+}
+
 TEST_F(Export, writes_every_kind_of_file_and_nothing_to_stdout) {
   const End end = run("export gear.toml --calculix cup.inp --vtkhdf cup.vtkhdf --profile teeth.dxf");
   EXPECT_EQ(end.code, 0) << end.err;
