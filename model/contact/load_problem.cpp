@@ -15,7 +15,8 @@ void set_point_gaps(std::span<const LoadedPoint> points, ContactProblem& problem
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double cosine = std::cos(points[i].pressure_angle_rad);
     problem.q(static_cast<Eigen::Index>(i)) = points[i].backlash_mm * cosine;
-    problem.r(static_cast<Eigen::Index>(i)) = (points[i].coast ? -cosine : cosine) * points[i].contact_radius_mm;
+    problem.r(static_cast<Eigen::Index>(i)) =
+        (points[i].coast ? -cosine : cosine) * points[i].contact_radius_mm;
   }
 }
 

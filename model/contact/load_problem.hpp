@@ -34,7 +34,8 @@ struct LoadedPoint {
   double pressure_angle_rad = 0.0; ///< α′; 0: circumferential force
   int slice = -1;                  ///< of the face; −1: shared evenly by all
   double z_mm = 0.0;
-  int level = 0;      ///< which of its tooth's heights: of the hats, or −1 for the circular spline's tip edge; one point: 0
+  int level =
+      0; ///< which of its tooth's heights: of the hats, or −1 for the circular spline's tip edge; one point: 0
   bool coast = false; ///< on the coast flank: pushed towards larger φ, closed by a rotation towards smaller θ
 };
 
