@@ -4,9 +4,10 @@
 //
 //     gap(θ) = q − θ r + M z ≥ 0,    z ≥ 0,    z_i gap_i = 0,    M symmetric positive definite
 //
-// Unknowns z [N] are tooth forces (r_i = contact radius, mm) and, with unilateral wall contact, wall forces
-// (r_i = 0); gaps q [mm], M [mm/N]. For every θ there is exactly one solution, it is piecewise linear in θ,
-// and the torque r · z never falls (strictly rises as soon as an index with r_i > 0 carries force).
+// Unknowns z [N] are forces on drive flanks (r_i = contact radius, mm), on coast flanks (r_i < 0: minus the
+// radius; θ opens them) and, with unilateral wall contact, wall forces (r_i = 0); gaps q [mm], M [mm/N]. For
+// every θ there is exactly one solution, it is piecewise linear in θ, and the torque r · z never falls
+// (strictly rises as soon as an index with r_i ≠ 0 carries force).
 //
 //     gap, force                    One index: closed once q_1 < θ r_1, then z_1 = (θ r_1 − q_1) / M_11.
 //       \      /                    Example: M = 1e-4 mm/N, q = 4e-3 mm, r = 14.5 mm, θ = 1e-3 rad: z = 105
@@ -20,6 +21,11 @@
 // (hash), or too many steps, hands over to single pivots in the manner of Lawson and Hanson (Solving Least
 // Squares Problems, 1974, chapter 23), which lower the energy ½ zᵀMz + (q − θ r)ᵀz every time and therefore
 // end. Theory: Cottle, Pang, Stone, The Linear Complementarity Problem (1992), chapters 3 and 4.
+//
+// With r of both signs a gear is free when a range of rotations leaves every index with r ≠ 0 without force
+// (first coast touch ≤ θ ≤ first drive touch), else it is wedged: forces of both signs are in balance at no
+// torque, at one rotation. There block steps at a torque may drop all that carry; the rotation is then found by a
+// bracketed Newton iteration on torque(θ), each value a solution at a rotation.
 //
 // The result is a fresh solve on the final closed set in ascending index order: its bits do not depend on the
 // first set that was supplied. Indices with force and gap both (nearly) zero are decided again from a start
@@ -51,9 +57,8 @@ struct ContactState {
   double torque = 0.0;       ///< r · z, N·mm
   double stiffness =
       0.0; ///< d torque / dθ towards larger θ (one-sided where biactive is not empty), N·mm/rad
-  bool contact =
-      false;          ///< some index with r > 0 is closed or biactive; false: no contact up to this rotation
-  int iterations = 0; ///< linear systems solved
+  bool contact = false; ///< some index with r ≠ 0 is closed or biactive; false: no contact at this rotation
+  int iterations = 0;   ///< linear systems solved
   bool fallback = false; ///< the block steps returned to a set or were too many: single pivots ended it
 };
 
@@ -76,7 +81,7 @@ class EventPath;
 struct PathRange;
 
 /// Buffers for any number of solves: no allocation once the size is known. One object per thread.
-/// Throws std::invalid_argument for sizes that do not match, r < 0 or numbers that are not finite, and
+/// Throws std::invalid_argument for sizes that do not match or numbers that are not finite, and
 /// NotPositiveDefinite.
 class ContactSolver {
 public:
@@ -86,14 +91,15 @@ public:
   void solve_at(const ContactProblem& problem, double rotation, const ActiveSet& warm,
                 const ContactOptions& options, ContactState& state);
 
-  /// Solution at a torque r · z > 0 [N·mm]: the minimum of ½ zᵀMz + qᵀz with r · z = torque, z ≥ 0; θ is the
-  /// multiplier. Torque 0 means the take-up: the largest θ without load on an index with r > 0. A torque
-  /// below 0 is refused (std::invalid_argument). Status::no_contact when no index has r > 0.
+  /// Solution at a torque r · z [N·mm]: the minimum of ½ zᵀMz + qᵀz with r · z = torque, z ≥ 0; θ is the
+  /// multiplier. Torque 0 means the take-up: the largest θ without load on an index with r > 0, or the rotation
+  /// of the balance when wedged. A torque below 0 needs an index with r < 0, else it is refused
+  /// (std::invalid_argument). Status::no_contact when no index has r > 0 (torque ≥ 0).
   Outcome<ContactState> solve_torque(const ContactProblem& problem, double torque, const ActiveSet& warm = {},
                                      const ContactOptions& options = {});
 
-  /// The rotation at which the first index with r > 0 touches, with the others (walls) in equilibrium; may be
-  /// negative.
+  /// The rotation at which the first index with r > 0 touches, with the supports (r = 0) in equilibrium; may be
+  /// negative. Wedged: the rotation at no torque.
   Outcome<double> take_up(const ContactProblem& problem, const ContactOptions& options = {});
 
   /// Exact path from event to event (lcp_path.hpp).
@@ -120,7 +126,13 @@ private:
   void find_ties(const ContactOptions& options);
   void one_sided_direction(const ContactProblem& problem);
   void emit(const ContactProblem& problem, ContactState& state);
-  double solve_supports(const ContactProblem& problem, const ContactOptions& options, int& first_index);
+  struct Play { ///< of the supports' equilibrium: first touches on both sides; wedged when coast > drive
+    double coast, drive;
+    int first_coast = -1, first_drive = -1; ///< −1: there is none
+    bool wedged() const { return coast > drive; }
+  };
+  Play solve_supports(const ContactProblem& problem, const ContactOptions& options);
+  void search_rotation(const ContactProblem& problem, const ContactOptions& options);
   friend class PathTracer;
 
   ActiveFactor factor_;
@@ -137,6 +149,7 @@ private:
   std::vector<std::uint64_t> visited_;
   int iterations_ = 0;
   bool fallback_ = false;
+  bool both_signs_ = false; ///< r of both signs
 };
 
 } // namespace strainwave

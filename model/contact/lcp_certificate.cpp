@@ -33,8 +33,9 @@ ContactCertificate certify(const ContactProblem& problem, const ContactState& st
     if (violation > worst)
       worst = violation, c.worst = i;
   }
-  c.torque_error = relative(std::abs(problem.r.dot(state.force) - state.torque),
-                            std::max(std::abs(state.torque), problem.r.maxCoeff() * c.force_scale));
+  c.torque_error =
+      relative(std::abs(problem.r.dot(state.force) - state.torque),
+               std::max(std::abs(state.torque), problem.r.cwiseAbs().maxCoeff() * c.force_scale));
   return c;
 }
 

@@ -24,7 +24,7 @@ namespace strainwave {
 struct ContactProblem {
   Eigen::MatrixXd m; ///< mm/N, n × n, symmetric positive definite
   Eigen::VectorXd q; ///< mm, n
-  Eigen::VectorXd r; ///< mm, n, ≥ 0
+  Eigen::VectorXd r; ///< mm, n; > 0 drive flank, < 0 coast flank, 0 support
   int size() const { return static_cast<int>(q.size()); }
 };
 

@@ -66,7 +66,7 @@ void EventPath::evaluate(std::size_t segment, double rotation, ContactState& sta
                   : state.gap[i] <= small_gap;
     if (tie)
       state.biactive.push_back(i);
-    if ((tie || active[i]) && r_[static_cast<std::size_t>(i)] > 0.0)
+    if ((tie || active[i]) && r_[static_cast<std::size_t>(i)] != 0.0)
       state.contact = true;
   }
 }

@@ -72,7 +72,7 @@ public:
   double start_torque() const { return segments_.front().torque; }
   double end_torque() const { return end_torque_; }
   End end() const { return end_; }
-  /// Some index with r > 0 closes within the range.
+  /// Some index with r ≠ 0 is closed or closes within the range.
   bool contact() const { return contact_; }
   const std::vector<PathEvent>& events() const { return events_; }
   /// What changes at an event, ascending index.

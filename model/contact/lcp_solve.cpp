@@ -31,16 +31,16 @@ void ContactSolver::prepare(const ContactProblem& problem, const ActiveSet& warm
   if (!warm.empty() && warm.size() != n)
     throw std::invalid_argument("contact problem: the first guess has another size");
   largest_diagonal_ = 0.0;
-  double sum = 0.0, least_r = 0.0;
+  double sum = 0.0, least_r = 0.0, most_r = 0.0;
   for (int i = 0; i < problem.size(); ++i) {
     largest_diagonal_ = std::max(largest_diagonal_, problem.m(i, i));
     sum += std::abs(problem.q[i]) + std::abs(problem.r[i]);
     least_r = std::min(least_r, problem.r[i]);
+    most_r = std::max(most_r, problem.r[i]);
   }
   if (!std::isfinite(sum))
     throw std::invalid_argument("contact problem: a gap or radius is not finite");
-  if (least_r < 0.0)
-    throw std::invalid_argument("contact problem: a radius is negative");
+  both_signs_ = least_r < 0.0 && most_r > 0.0;
   factor_.reset(problem.size());
   for (auto* v : {&load_, &scale_, &x_, &trial_, &gap_})
     v->resize(n);
@@ -107,6 +107,8 @@ bool ContactSolver::block_steps(const ContactProblem& problem, const ContactOpti
       return false;
     visited_.push_back(hash);
     solve_on_set(x_);
+    if (!std::isfinite(rotation_)) // r of both signs: nothing that carries is left
+      return false;
     residual(problem);
     bool changed = false;
     std::size_t position = 0;
@@ -148,9 +150,13 @@ void ContactSolver::find_ties(const ContactOptions& options) {
 void ContactSolver::solve_constrained(const ContactProblem& problem, const ContactOptions& options) {
   if (!block_steps(problem, options)) {
     fallback_ = true;
-    single_pivots(problem);
-    drop_tension(problem);
-    residual(problem);
+    if (mode_ == Mode::torque && both_signs_) {
+      search_rotation(problem, options);
+    } else {
+      single_pivots(problem);
+      drop_tension(problem);
+      residual(problem);
+    }
   }
   find_ties(options);
   if (ties_.empty())
@@ -193,10 +199,10 @@ void ContactSolver::emit(const ContactProblem& problem, ContactState& state) {
       continue;
     state.force[i] = x_[position++];
     state.torque += problem.r[i] * state.force[i];
-    state.contact = state.contact || problem.r[i] > 0.0;
+    state.contact = state.contact || problem.r[i] != 0.0;
   }
   for (const int i : ties_)
-    state.contact = state.contact || problem.r[i] > 0.0;
+    state.contact = state.contact || problem.r[i] != 0.0;
   if (!ties_.empty())
     one_sided_direction(problem);
   state.stiffness = factor_.r_r();

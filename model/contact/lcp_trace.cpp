@@ -79,7 +79,7 @@ private:
     was_closed_.assign(n, 0);
     rate_.resize(n);
     for (int i = 0; i < n_; ++i)
-      largest_r_ = std::max(largest_r_, problem_.r[i]);
+      largest_r_ = std::max(largest_r_, std::abs(problem_.r[i]));
 
     s_.prepare(problem_, {});
     path_.largest_diagonal_ = s_.largest_diagonal_;
@@ -95,7 +95,7 @@ private:
       decide_batch();
     }
     for (int i = 0; i < n_; ++i)
-      path_.contact_ = path_.contact_ || (s_.closed_[static_cast<std::size_t>(i)] && problem_.r[i] > 0.0);
+      path_.contact_ = path_.contact_ || (s_.closed_[static_cast<std::size_t>(i)] && problem_.r[i] != 0.0);
     add_segment();
   }
 
@@ -252,7 +252,7 @@ private:
       if (closed == static_cast<bool>(was_closed_[static_cast<std::size_t>(i)]))
         continue;
       path_.changes_.push_back({i, closed});
-      if (closed && problem_.r[i] > 0.0)
+      if (closed && problem_.r[i] != 0.0)
         path_.contact_ = true;
     }
     const int count = static_cast<int>(path_.changes_.size()) - first;

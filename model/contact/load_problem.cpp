@@ -15,7 +15,8 @@ void set_point_gaps(std::span<const LoadedPoint> points, ContactProblem& problem
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double cosine = std::cos(points[i].pressure_angle_rad);
     problem.q(static_cast<Eigen::Index>(i)) = points[i].backlash_mm * cosine;
-    problem.r(static_cast<Eigen::Index>(i)) = points[i].contact_radius_mm * cosine;
+    problem.r(static_cast<Eigen::Index>(i)) =
+        (points[i].coast ? -cosine : cosine) * points[i].contact_radius_mm;
   }
 }
 
@@ -26,9 +27,11 @@ std::vector<ToothFunctional> tooth_functionals(const RingCompliance& ring,
   std::vector<ToothFunctional> result;
   result.reserve(points.size());
   for (const LoadedPoint& point : points) {
-    // F > 0 pushes towards smaller φ and inwards: minus the functional's own direction, turned at the use.
-    result.push_back(ring.tooth(point.tooth, point.flank_radius_mm, std::cos(point.pressure_angle_rad),
-                                -std::sin(point.pressure_angle_rad), point.slice));
+    // Along the flank's normal out of the tooth; F > 0 pushes the other way, turned at the use.
+    const double cosine = std::cos(point.pressure_angle_rad);
+    result.push_back(ring.tooth(point.tooth, point.flank_radius_mm, point.coast ? -cosine : cosine,
+                                -std::sin(point.pressure_angle_rad), point.slice,
+                                point.coast ? FlankSide::coast : FlankSide::drive));
   }
   return result;
 }

@@ -10,6 +10,12 @@
 // With a force along the flank normal (local pressure angle α′ of the contact) F is the normal force: it loads cos α′
 // circumferentially and sin α′ inwards, the gap is c cos α′ and the lever arm R cos α′, so that D stays symmetric.
 // Torque = lobes · Σ F_i arm_i.
+//
+// Coast flanks are candidates of the same LCP. With n the flank's normal out of the tooth,
+//     drive  n = ( cos α′ φ̂ + sin α′ r̂)    F pushes towards smaller φ and inwards     arm = +R cos α′
+//     coast  n = (−cos α′ φ̂ + sin α′ r̂)    F pushes towards larger φ and inwards      arm = −R cos α′
+// the force on the tooth is −F n and the gap c cos α′ − n·u − arm θ on either flank; all above holds with d = −n·u
+// and the signed arm. A wedged gear has forces on both at no torque.
 
 #include "model/contact/assembly.hpp"
 
@@ -28,11 +34,14 @@ struct LoadedPoint {
   double pressure_angle_rad = 0.0; ///< α′; 0: circumferential force
   int slice = -1;                  ///< of the face; −1: shared evenly by all
   double z_mm = 0.0;
+  int level =
+      0; ///< which of its tooth's heights: of the hats, or −1 for the circular spline's tip edge; one point: 0
+  bool coast = false; ///< on the coast flank: pushed towards larger φ, closed by a rotation towards smaller θ
 };
 
 struct LoadProblem {
   ContactProblem problem;              ///< points of the teeth first, then (unilateral) wall stations
-  std::vector<ToothFunctional> points; ///< towards larger φ and, with α′, outwards
+  std::vector<ToothFunctional> points; ///< along the flanks' normals out of the tooth
   int point_count = 0;
   double lobes = 2.0; ///< torque = lobes · r · z
 };

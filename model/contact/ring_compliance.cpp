@@ -85,7 +85,8 @@ std::vector<WallStation> RingCompliance::stations(double phase) const {
 }
 
 ToothFunctional RingCompliance::tooth(int sector, double radius_mm, double circumferential, double inwards,
-                                      int only_slice) const {
+                                      int only_slice, FlankSide side) const {
+  assert(side == FlankSide::drive || responses_->both_flanks);
   const std::vector<double>& heights = responses_->flank_radius_mm;
   const int slices = static_cast<int>(responses_->flank_z_mm.size());
   assert(!heights.empty());
@@ -112,13 +113,14 @@ ToothFunctional RingCompliance::tooth(int sector, double radius_mm, double circu
       const double part = weight * share;
       if (part == 0.0)
         continue;
-      if (circumferential != 0.0) {
-        result.weights.emplace_back(responses_->flank(level, slice, UnitResponses::circumferential),
-                                    circumferential * part);
-      }
-      if (inwards != 0.0) {
-        result.weights.emplace_back(responses_->flank(level, slice, UnitResponses::radial), -inwards * part);
-      }
+      const auto functional = [&](int direction) {
+        return side == FlankSide::drive ? responses_->flank(level, slice, direction)
+                                        : responses_->coast(level, slice, direction);
+      };
+      if (circumferential != 0.0)
+        result.weights.emplace_back(functional(UnitResponses::circumferential), circumferential * part);
+      if (inwards != 0.0)
+        result.weights.emplace_back(functional(UnitResponses::radial), -inwards * part);
     }
   }
   return result;

@@ -52,9 +52,9 @@ public:
 
   /// The flank functional of a tooth at a radius of the undeformed flank: linear between two heights (held at the ends),
   /// `circumferential` times the circumferential and `inwards` times the inward radial one, on one face slice or (−1)
-  /// shared by all of them as their hats share the face.
-  ToothFunctional tooth(int sector, double radius_mm, double circumferential, double inwards,
-                        int slice = -1) const;
+  /// shared by all of them as their hats share the face. `side`: the flank it stands on; the directions are the same.
+  ToothFunctional tooth(int sector, double radius_mm, double circumferential, double inwards, int slice = -1,
+                        FlankSide side = FlankSide::drive) const;
 
   // Compliances, mm/N; `normal` columns are (radial, circumferential) components of a contact normal per station.
   // wall × wall: displacement along normal i from unit force along normal j.

@@ -163,12 +163,12 @@ Hat equidistant_hat(double begin, double end, int count, int index) {
   return {knot(std::max(index - 1, 0)), knot(index), knot(std::min(index + 1, count - 1))};
 }
 
-DirectionPair flank_hat(const SectorMesh& mesh, const Hat& radius, const Hat& z) {
+DirectionPair flank_hat(const SectorMesh& mesh, const Hat& radius, const Hat& z, FlankSide side) {
   HatIntegral sum;
-  for (const ElementFace& face : mesh.drive_flank)
+  for (const ElementFace& face : side == FlankSide::drive ? mesh.drive_flank : mesh.coast_flank)
     integrate_side(mesh, face, radius_of, radius, z_of, z, sum);
   if (!(sum.resultant > 0.0))
-    throw std::logic_error("a flank hat without support on the drive flank");
+    throw std::logic_error("a flank hat without support on the flank");
   return {{scaled(sum.circumferential, 1.0 / sum.resultant), {}},
           {scaled(sum.radial, 1.0 / sum.resultant), {}}};
 }

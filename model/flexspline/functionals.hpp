@@ -11,6 +11,7 @@
 // All weights are components in the cylindrical frame of each node's own angle.
 
 #include "model/flexspline/mesh.hpp"
+#include "model/flexspline/unit_responses.hpp"
 
 #include <vector>
 
@@ -41,11 +42,13 @@ struct Hat {
 /// Hat number `index` of `count` ≥ 2 equidistant ones over [begin, end].
 Hat equidistant_hat(double begin, double end, int count, int index);
 
-/// Tractions of unit resultant on the drive flank: a hat in radius times a hat in z.
+/// Tractions of unit resultant on one flank of the tooth: a hat in radius times a hat in z. Directions are those of the
+/// frame (towards larger φ, outwards) on either flank.
 struct DirectionPair {
   Functional circumferential, radial;
 };
-DirectionPair flank_hat(const SectorMesh& mesh, const Hat& radius, const Hat& z);
+DirectionPair flank_hat(const SectorMesh& mesh, const Hat& radius, const Hat& z,
+                        FlankSide side = FlankSide::drive);
 
 /// On the inner wall: a hat in angle about `offset` pitches from the tooth centre, half width half a pitch,
 /// times a hat in z.

@@ -200,6 +200,8 @@ private:
       mesh.region.push_back(name);
       if (name == Region::tooth && k == 2 * (per_pitch - gap) - 2)
         mesh.drive_flank.push_back({index, 5});
+      if (name == Region::tooth && k == 2 * gap)
+        mesh.coast_flank.push_back({index, 3});
       if (i == wall && j >= corner)
         mesh.inner_wall.push_back({index, 6});
     }

@@ -54,6 +54,7 @@ struct SectorMesh {
   std::vector<int> fixed;       ///< degrees of freedom 3·node + {0 radial, 1 circumferential, 2 axial}
   std::vector<int> boss;        ///< nodes of the bore (all their degrees of freedom are fixed)
   std::vector<ElementFace> drive_flank; ///< tooth flank at larger φ (side 5)
+  std::vector<ElementFace> coast_flank; ///< its mirror image at smaller φ (side 3)
   std::vector<ElementFace> inner_wall;  ///< inner surface of wall, rim and front (side 6)
   std::vector<int> ring_index; ///< place of a node among those its sector owns; −1 on the right boundary
   std::vector<int> left_twin;  ///< node of the left boundary that a right node coincides with; else −1

@@ -118,10 +118,10 @@ constexpr struct {
              {"section_z", "mm", &UnitResponses::section_z_mm},
              {"responses", "mm/N", &UnitResponses::data}};
 
-/// What is no list: sectors, reciprocity error, discretisation estimate.
+/// What is no list: sectors, reciprocity error, discretisation estimate, both flanks or the drive flank alone.
 std::vector<double> single_numbers(const UnitResponses& responses) {
   return {static_cast<double>(responses.sectors), responses.reciprocity_error,
-          responses.discretisation_estimate};
+          responses.discretisation_estimate, responses.both_flanks ? 1.0 : 0.0};
 }
 
 std::uint64_t hash_of(const std::vector<double>& list) {
@@ -171,7 +171,8 @@ std::vector<std::uint64_t> response_key(const ResponseRequest& r) {
     real(value);
   for (const int value : {f.teeth, r.mesh.per_pitch, r.mesh.along_face, r.mesh.along_wall, r.mesh.diaphragm,
                           r.mesh.tooth_height, r.mesh.through_thickness, r.teeth ? 1 : 0, r.sectors,
-                          r.flank_heights, r.face_slices, r.sections ? 1 : 0, r.estimate ? 1 : 0})
+                          r.flank_heights, r.face_slices, r.both_flanks ? 1 : 0, r.sections ? 1 : 0,
+                          r.estimate ? 1 : 0})
     whole(value);
   list(r.wall_offset);
   list(r.wall_z_mm);
@@ -229,7 +230,7 @@ std::optional<UnitResponses> ResponseStore::find(const ResponseRequest& request)
     return ignored("it belongs to another flexspline or an older version");
   UnitResponses responses;
   bool whole = read_list(handle.id(), "checksum", check) && check.size() == 1 &&
-               read_list(handle.id(), "numbers", numbers) && numbers.size() == 3;
+               read_list(handle.id(), "numbers", numbers) && numbers.size() == 4;
   for (const auto& entry : lists)
     whole = whole && read_list(handle.id(), entry.name, responses.*entry.list);
   if (!whole)
@@ -237,6 +238,7 @@ std::optional<UnitResponses> ResponseStore::find(const ResponseRequest& request)
   responses.sectors = static_cast<int>(numbers[0]);
   responses.reciprocity_error = numbers[1];
   responses.discretisation_estimate = numbers[2];
+  responses.both_flanks = numbers[3] != 0.0;
   const auto count = static_cast<std::size_t>(responses.count());
   if (responses.data.size() != static_cast<std::size_t>(responses.sectors) * count * count ||
       checksum(responses) != check.front())

@@ -19,7 +19,7 @@
 namespace strainwave {
 
 /// Raised whenever the same request would give other numbers.
-inline constexpr std::uint64_t response_stage_version = 2;
+inline constexpr std::uint64_t response_stage_version = 3;
 
 /// Canonical bits of a request (every number as 64 bits, lists with their length) behind the stage's version.
 std::vector<std::uint64_t> response_key(const ResponseRequest& request);

@@ -99,7 +99,7 @@ Failure ill_conditioned(const ResponseRequest& r) {
 double memory_bytes(const ResponseRequest& r, int threads) {
   const MeshSize size = mesh_size(r.flexspline, r.mesh, r.teeth);
   const double rows = r.wall_z_mm.empty() ? r.mesh.along_face + 1.0 : static_cast<double>(r.wall_z_mm.size());
-  const double flank = r.teeth ? 2.0 * r.flank_heights * r.face_slices : 0.0;
+  const double flank = r.teeth ? (r.both_flanks ? 4.0 : 2.0) * r.flank_heights * r.face_slices : 0.0;
   const double functionals = flank + 2.0 * rows * static_cast<double>(r.wall_offset.size()) + (r.sections ? 4.0 * rows : 0.0);
   const double sectors = r.sectors > 0 ? r.sectors : r.flexspline.teeth;
   const double side = size.side_unknowns, square = functionals * functionals;
@@ -195,20 +195,32 @@ ResponseFunctionals response_functionals(const ResponseRequest& r, const SectorM
     layout.flank_radius_mm = equidistant(root, tip, r.flank_heights);
     layout.flank_z_mm = r.face_slices == 1 ? std::vector<double>{0.5 * (face.rear + face.front)}
                                            : equidistant(face.rear, face.front, r.face_slices);
+    layout.both_flanks = r.both_flanks;
+  }
+  const auto hats = [&](FlankSide side, auto&& each) {
     for (int height = 0; height < r.flank_heights; ++height)
       for (int slice = 0; slice < r.face_slices; ++slice) {
         const Hat across = r.face_slices == 1 ? Hat{.constant = true}
                                               : equidistant_hat(face.rear, face.front, r.face_slices, slice);
-        DirectionPair hat = flank_hat(mesh, equidistant_hat(root, tip, r.flank_heights, height), across);
-        if (slice == 0)
-          layout.flank_centre_mm.push_back(moment_about_axis(mesh, hat.circumferential));
-        add(std::move(hat));
+        each(slice, flank_hat(mesh,
+                              equidistant_hat(r.flexspline.root_radius_mm, r.flexspline.tip_radius_mm,
+                                              r.flank_heights, height),
+                              across, side));
       }
+  };
+  if (r.teeth) {
+    hats(FlankSide::drive, [&](int slice, DirectionPair hat) {
+      if (slice == 0)
+        layout.flank_centre_mm.push_back(moment_about_axis(mesh, hat.circumferential));
+      add(std::move(hat));
+    });
   }
   for (const double offset : layout.wall_offset)
     for (const double z : layout.wall_z_mm)
       add(wall_hat(mesh, offset, row_hat(r, z)));
   add_sections(r, mesh, result);
+  if (layout.both_flanks)
+    hats(FlankSide::coast, [&](int, DirectionPair hat) { add(std::move(hat)); });
   return result;
 }
 

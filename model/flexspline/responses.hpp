@@ -3,7 +3,8 @@
 //
 // Functionals of one sector (signs, units and order: unit_responses.hpp):
 //   flank    hats in radius between `flank_heights` equidistant levels root … tip, constant across the face
-//            (one slice) or hats between `face_slices` places rear … front; circumferential and radial
+//            (one slice) or hats between `face_slices` places rear … front; circumferential and radial;
+//            with `both_flanks` also on the coast flank
 //   wall     hats in angle between the stations, half width half a pitch, times a hat in z of half width
 //            rim_thickness about the row (cut only at the open end); circumferential and radial
 //   section  a point of the neutral surface under the tooth centre: radial, circumferential; rotation about
@@ -39,6 +40,7 @@ struct ResponseRequest {
   int face_slices = 1;                          ///< 1: constant across the face
   std::vector<double> wall_offset = {0.0, 0.5}; ///< stations in pitches from the tooth centre, each in [0, 1)
   std::vector<double> wall_z_mm;    ///< rows; empty: along_face + 1 equidistant ones over the face
+  bool both_flanks = false;         ///< the hats of the coast flank too
   bool sections = true;             ///< section functionals at all
   std::vector<double> section_z_mm; ///< rows; empty: those of the wall
   bool estimate = true; ///< discretisation estimate (a second, coarser solve); cups with teeth only

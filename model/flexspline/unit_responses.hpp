@@ -15,6 +15,9 @@
 //          from the tooth centre, at fixed rows z (a narrow hat along z)
 //
 // Signs: circumferential positive towards larger φ, radial positive outwards, also for loads. Units: mm/N.
+// Coast functionals (only when asked for): the same hats on the coast flank (y < 0), in the same directions of the frame;
+// the cup is its own mirror image, so what is new in them is how the two flanks of one and of different teeth answer
+// each other. They stand last, so that all other places are the same with and without them.
 // Section functionals (displacement of the neutral surface under the tooth centre) only measure and load by a point of
 // the neutral surface: radial, circumferential [mm], rotation about the axis and meridian tilt [rad], loads N and N·mm.
 
@@ -22,6 +25,9 @@
 #include <vector>
 
 namespace strainwave {
+
+/// Flank of a flexspline tooth: drive at larger φ, coast at smaller φ.
+enum class FlankSide { drive, coast };
 
 struct UnitResponses {
   int sectors = 0; ///< = flexspline teeth (any number for a smooth cup)
@@ -32,6 +38,7 @@ struct UnitResponses {
   std::vector<double> wall_offset;     ///< stations, fraction of a pitch from the tooth centre, e.g. {0, 0.5}
   std::vector<double> wall_z_mm;       ///< rows along the axis, ascending
   std::vector<double> section_z_mm;    ///< rows of the section functionals, ascending; may be empty
+  bool both_flanks = false;            ///< the coast flank's hats are there too
 
   enum FlankDirection { circumferential = 0, radial = 1 }; ///< also of the wall functionals
   enum SectionQuantity { section_radial = 0, section_circumferential = 1, section_rotation = 2, section_tilt = 3 };
@@ -39,11 +46,15 @@ struct UnitResponses {
   int flank_count() const { return 2 * static_cast<int>(flank_radius_mm.size() * flank_z_mm.size()); }
   int wall_count() const { return 2 * static_cast<int>(wall_offset.size() * wall_z_mm.size()); }
   int section_count() const { return 4 * static_cast<int>(section_z_mm.size()); }
-  /// Functionals of one sector: flank, then wall, then section.
-  int count() const { return flank_count() + wall_count() + section_count(); }
+  int coast_count() const { return both_flanks ? flank_count() : 0; }
+  /// Functionals of one sector: drive flank, then wall, then section, then coast flank.
+  int count() const { return flank_count() + wall_count() + section_count() + coast_count(); }
 
   int flank(int height, int slice, int direction) const {
     return 2 * (height * static_cast<int>(flank_z_mm.size()) + slice) + direction;
+  }
+  int coast(int height, int slice, int direction) const {
+    return flank_count() + wall_count() + section_count() + flank(height, slice, direction);
   }
   int wall(int station, int row, int direction) const {
     return flank_count() + 2 * (station * static_cast<int>(wall_z_mm.size()) + row) + direction;

@@ -85,6 +85,8 @@ private:
   std::optional<Failure> first_assembly();
   /// The points that can meet their spaces at a phase. lobes = 1: those of the first lobe only.
   Outcome<std::vector<LoadedPoint>> loaded_points(double phase);
+  /// Those of the coast flanks: the mirror image φ → −φ of the drive points at the mirrored phase.
+  Outcome<std::vector<LoadedPoint>> coast_points(double phase);
   std::optional<Failure> compliance();
   Outcome<std::shared_ptr<const PhaseModel>> phase_model(double phase);
   std::optional<Failure> load();
@@ -103,7 +105,8 @@ private:
   std::shared_ptr<const Ring> ring_;
   std::optional<WaveGeneratorSurface> surface_;
   double disc_shift_ = 0.0;
-  std::vector<FlankPair> flanks_; ///< one for each slice
+  std::vector<FlankPair> flanks_;                       ///< one for each slice
+  std::map<double, std::vector<LoadedPoint>> points_of_; ///< drive, by phase
   std::map<double, std::shared_ptr<const PhaseModel>> phases_;
 };
 

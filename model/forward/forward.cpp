@@ -68,8 +68,11 @@ Outcome<ContactStates> Analysis::unguarded_contact_states() {
   const auto add = [&](const std::string& name, const Outcome<PhaseLoad>& load) -> std::optional<Failure> {
     if (!load)
       return load.failure();
-    result.states.push_back(
-        contact_forces(name, ring, **assembled, load->wall_force, (*model)->points(), load->force_n));
+    const bool wedged = std::any_of(load->coast_force_n.begin(), load->coast_force_n.end(),
+                                    [](double force) { return force > 0.0; });
+    result.states.push_back(contact_forces(name, ring, **assembled, load->wall_force,
+                                           wedged ? (*model)->all_points() : (*model)->points(),
+                                           wedged ? PhaseModel::all_forces(*load) : load->force_n));
     result.states.back().torque_nm = load->torque_nm;
     result.states.back().rotation_rad = load->rotation_rad;
     return std::nullopt;
@@ -206,6 +209,8 @@ std::optional<Failure> Analysis::first_backlash() {
 }
 
 Outcome<std::vector<LoadedPoint>> Analysis::loaded_points(double phase) {
+  if (const auto found = points_of_.find(phase); found != points_of_.end())
+    return found->second;
   if (!tables_.contains(phase)) {
     auto table = backlash(gear_, **curve_, phase);
     if (!table)
@@ -240,6 +245,27 @@ Outcome<std::vector<LoadedPoint>> Analysis::loaded_points(double phase) {
                    "no flank of the flexspline reaches the circular spline in this window: "
                    "no tooth can carry load"};
   }
+  if (points_of_.size() >= most_phases_kept)
+    points_of_.clear();
+  points_of_.emplace(phase, points);
+  return points;
+}
+
+Outcome<std::vector<LoadedPoint>> Analysis::coast_points(double phase) {
+  // Phase n − j mirrors phase j of n; 1 − j/n would miss the other's bits, and with them what it has computed.
+  const int phases = gear_.load.phases;
+  const double j = std::round(phase * phases);
+  const double mirrored = phase == 0.0 ? 0.0 : j / phases == phase ? (phases - j) / phases : 1.0 - phase;
+  auto drive = loaded_points(mirrored);
+  if (!drive)
+    return drive.failure();
+  std::vector<LoadedPoint> points = std::move(drive).value();
+  std::reverse(points.begin(), points.end());
+  for (LoadedPoint& point : points) {
+    point.tooth = mirrored_tooth(point.tooth, phase);
+    point.phi_rad = 0.0 - point.phi_rad; // 0 − 0 has no sign
+    point.coast = true;
+  }
   return points;
 }
 
@@ -249,11 +275,14 @@ Outcome<std::shared_ptr<const PhaseModel>> Analysis::phase_model(double phase) {
   auto points = loaded_points(phase);
   if (!points)
     return points.failure();
+  auto coast = coast_points(phase);
+  if (!coast)
+    return coast.failure();
   auto assembled = assembly(phase);
   if (!assembled)
     return assembled.failure();
   auto model = std::make_shared<const PhaseModel>(gear_.contact, ring_->compliance, *surface_, *assembled,
-                                                  std::move(points).value());
+                                                  std::move(points).value(), std::move(coast).value());
   if (phases_.size() >= most_phases_kept)
     phases_.clear(); // some MB each
   phases_.emplace(phase, model);

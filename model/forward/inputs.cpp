@@ -30,6 +30,7 @@ ResponseRequest response_request(const Gear& gear) {
   request.material = gear.material;
   request.mesh = gear.mesh;
   request.face_slices = gear.contact.face_slices;
+  request.both_flanks = true;
   if (gear.contact.flank_points > 1) {
     request.flank_heights = gear.contact.flank_points;
     // as many nodes along the flank and the face as hats, or the hats could not be told apart

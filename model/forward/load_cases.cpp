@@ -20,10 +20,6 @@ struct Asked {
   double value = 0.0;
 };
 
-int mirrored_tooth(int tooth, double phase) {
-  return phase == 0.0 ? -tooth : -1 - tooth;
-}
-
 LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction direction, double phase) {
   LoadResult result;
   result.direction = direction;
@@ -233,6 +229,10 @@ private:
 };
 
 } // namespace
+
+int mirrored_tooth(int tooth, double phase) {
+  return phase == 0.0 ? -tooth : -1 - tooth;
+}
 
 std::optional<Failure> solve_load_cases(const Gear& gear, const PhaseSource& phase_source,
                                         ForwardResult& result) {

@@ -12,6 +12,9 @@
 
 namespace strainwave {
 
+/// Tooth whose mirror image φ → −φ a tooth is; phase: of either side.
+int mirrored_tooth(int tooth, double phase);
+
 /// The drive problem at meshing phase s ∈ [0, 1); made on demand and kept for the analysis.
 using PhaseSource = std::function<Outcome<std::shared_ptr<const PhaseModel>>(double phase)>;
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <tuple>
 
 namespace strainwave {
 
@@ -46,15 +47,42 @@ ContactState march_to_torque(const ContactProblem& problem, double torque, doubl
 
 PhaseModel::PhaseModel(const Contact& contact, const RingCompliance& ring,
                        const WaveGeneratorSurface& surface, std::shared_ptr<const AssembledState> assembled,
-                       std::vector<LoadedPoint> points)
+                       std::vector<LoadedPoint> points, std::vector<LoadedPoint> coast,
+                       const ContactStart& start)
     : contact_(contact), ring_(ring), surface_(surface), assembled_(std::move(assembled)),
-      points_(std::move(points)), first_(select(first_selection())) {}
+      drive_(std::move(points)), coast_(std::move(coast)), points_(drive_) {
+  points_.insert(points_.end(), coast_.begin(), coast_.end());
+  functionals_ = tooth_functionals(ring_, points_);
+  std::vector<int> index = started_selection(start);
+  if (index.empty()) {
+    index = first_selection();
+    start_set_.assign(index.size(), 0);
+    if (contact_.fidelity != Fidelity::linear) // first guess of the wall's set, from the assembly alone
+      start_set_.insert(start_set_.end(), assembled_->active.begin(), assembled_->active.end());
+    else
+      start_set_.clear();
+  }
+  first_ = select(std::move(index));
+}
 
 double PhaseModel::least_take_up_rad() const {
   double least = std::numeric_limits<double>::infinity();
-  for (const LoadedPoint& point : points_)
+  for (const LoadedPoint& point : drive_)
     least = std::min(least, take_up(point));
   return least;
+}
+
+double PhaseModel::overlap_rad() const {
+  double first_coast = -std::numeric_limits<double>::infinity();
+  for (const LoadedPoint& point : coast_)
+    first_coast = std::max(first_coast, -take_up(point));
+  return first_coast - least_take_up_rad();
+}
+
+std::vector<double> PhaseModel::all_forces(const PhaseLoad& load) {
+  std::vector<double> forces = load.force_n;
+  forces.insert(forces.end(), load.coast_force_n.begin(), load.coast_force_n.end());
+  return forces;
 }
 
 double PhaseModel::take_up_rad() const {
@@ -72,9 +100,12 @@ PhaseModel::Selection PhaseModel::select(std::vector<int> index) const {
   return selection;
 }
 
-std::vector<int> PhaseModel::first_selection() const {
-  std::map<std::pair<int, int>, int> least; // (tooth, slice) → point of least take-up
+/// Of every tooth and slice the point of least take-up, ascending.
+std::vector<int> PhaseModel::least_of_tooth_slices(bool coast) const {
+  std::map<std::pair<int, int>, int> least; // (tooth, slice) → point
   for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (points_[i].coast != coast)
+      continue;
     const auto [at, fresh] = least.try_emplace({points_[i].tooth, points_[i].slice}, static_cast<int>(i));
     if (!fresh && take_up(points_[i]) < take_up(points_[static_cast<std::size_t>(at->second)])) {
       at->second = static_cast<int>(i);
@@ -83,14 +114,68 @@ std::vector<int> PhaseModel::first_selection() const {
   std::vector<int> index;
   for (const auto& [key, i] : least)
     index.push_back(i);
-  if (index.size() < points_.size()) {
+  return index;
+}
+
+std::vector<int> PhaseModel::first_selection() const {
+  std::vector<int> index = least_of_tooth_slices(false);
+  if (index.size() < drive_.size()) {
     std::stable_sort(index.begin(), index.end(), [&](int a, int b) {
       return take_up(points_[static_cast<std::size_t>(a)]) < take_up(points_[static_cast<std::size_t>(b)]);
     });
     index.resize((index.size() + 1) / 2);
   }
+  if (const double overlap = overlap_rad(); overlap > 0.0) {
+    const double middle =
+        least_take_up_rad() + 0.5 * overlap; // rigid flanks overlap alike on both sides there
+    for (const int i : least_of_tooth_slices(true))
+      if (take_up(points_[static_cast<std::size_t>(i)]) + middle < 0.0)
+        index.push_back(i);
+  }
   std::sort(index.begin(), index.end());
   return index;
+}
+
+/// The points that a start names, as far as they exist here; fills start_set_. Empty: the start does not fit.
+std::vector<int> PhaseModel::started_selection(const ContactStart& start) {
+  const bool linear = contact_.fidelity == Fidelity::linear;
+  if (start.points.empty() || start.wall.size() != (linear ? 0 : assembled_->active.size()))
+    return {};
+  const auto key = [](const auto& p) { return std::tuple(p.coast, p.tooth, p.slice, p.level); };
+  std::map<decltype(key(points_.front())), bool> named;
+  for (const ContactStart::Point& point : start.points)
+    named.emplace(key(point), point.closed);
+  std::vector<int> index;
+  bool drive = false;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const auto found = named.find(key(points_[i]));
+    if (found == named.end())
+      continue;
+    index.push_back(static_cast<int>(i));
+    start_set_.push_back(found->second);
+    drive = drive || !points_[i].coast;
+  }
+  if (!drive) {
+    start_set_.clear();
+    return {};
+  }
+  start_set_.insert(start_set_.end(), start.wall.begin(), start.wall.end());
+  return index;
+}
+
+ContactStart PhaseModel::start_of(const Selection& selection, const Solved& solved) const {
+  ContactStart start;
+  for (std::size_t k = 0; k < selection.index.size(); ++k) {
+    const LoadedPoint& point = selection.points[k];
+    start.points.push_back({.tooth = point.tooth,
+                            .slice = point.slice,
+                            .level = point.level,
+                            .coast = point.coast,
+                            .closed = solved.state.active[k] != 0});
+  }
+  start.wall.assign(solved.state.active.begin() + static_cast<std::ptrdiff_t>(selection.index.size()),
+                    solved.state.active.end());
+  return start;
 }
 
 Outcome<PhaseLoad> PhaseModel::at_torque(double torque_nm, ContactSolver& solver) const {
@@ -104,49 +189,53 @@ Outcome<PhaseLoad> PhaseModel::at_rotation(double rotation_rad, ContactSolver& s
 Outcome<PhaseLoad> PhaseModel::solve(Control control, double value, ContactSolver& solver) const {
   Selection grown;
   const Selection* selection = &first_;
-  ActiveSet wall = assembled_->active; // first guess of the wall's set, from the assembly alone
+  ActiveSet warm = start_set_;
   for (int round = 1;; ++round) {
-    ActiveSet warm;
-    if (contact_.fidelity != Fidelity::linear) {
-      warm.assign(selection->index.size(), 0);
-      warm.insert(warm.end(), wall.begin(), wall.end());
-    }
     auto solved = solve_selection(*selection, control, value, warm, solver);
     if (!solved)
       return solved.failure();
 
     PhaseLoad load = solved->load;
     load.rounds = round;
-    load.force_n.assign(points_.size(), 0.0);
-    load.gap_um.assign(points_.size(), 0.0);
+    std::vector<double> force(points_.size(), 0.0);
+    std::vector<double> gap_um(points_.size(), 0.0);
     // every point's gap from the forces: closed ones of the selection check the solver, the others must not penetrate
-    const Eigen::VectorXd gap = gaps(points_, *selection, *solved);
+    const Eigen::VectorXd gap = gaps(*selection, *solved);
     std::vector<std::uint8_t> inside(points_.size(), 0);
     for (std::size_t k = 0; k < selection->index.size(); ++k) {
       const auto i = static_cast<std::size_t>(selection->index[k]);
       const auto at = static_cast<Eigen::Index>(k);
-      inside[i] = 1;
-      load.force_n[i] = solved->state.force(at);
+      inside[i] = solved->state.active[k] ? 2 : 1;
+      force[i] = solved->state.force(at);
       load.recomputed_gap_um = std::max(
           load.recomputed_gap_um, 1e3 * std::abs(gap(static_cast<Eigen::Index>(i)) - solved->state.gap(at)));
     }
     const double rounding_mm =
         1e-13 * std::max(1.0, load.certificate.gap_scale) + 1e-3 * load.recomputed_gap_um;
-    std::vector<int> index = selection->index;
+    std::vector<int> index;
+    ActiveSet set; // of the next round: what was closed and what joins
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const double g = gap(static_cast<Eigen::Index>(i));
-      const bool closed = inside[i] && load.force_n[i] > 0.0;
-      load.gap_um[i] = closed ? 0.0 : 1e3 * std::max(0.0, g) / std::cos(points_[i].pressure_angle_rad);
-      if (!inside[i] && g < -rounding_mm)
-        index.push_back(static_cast<int>(i));
+      const bool closed = inside[i] && force[i] > 0.0;
+      gap_um[i] = closed ? 0.0 : 1e3 * std::max(0.0, g) / std::cos(points_[i].pressure_angle_rad);
+      const bool joins = !inside[i] && g < -rounding_mm;
+      if (!inside[i] && !joins)
+        continue;
+      index.push_back(static_cast<int>(i));
+      set.push_back(inside[i] != 1);
     }
-    if (index.size() == selection->index.size())
+    if (index.size() == selection->index.size()) {
+      const auto middle = static_cast<std::ptrdiff_t>(drive_.size());
+      load.force_n.assign(force.begin(), force.begin() + middle);
+      load.coast_force_n.assign(force.begin() + middle, force.end());
+      load.gap_um.assign(gap_um.begin(), gap_um.begin() + middle);
+      load.coast_gap_um.assign(gap_um.begin() + middle, gap_um.end());
+      load.start = start_of(*selection, *solved);
       return load;
-    std::sort(index.begin(), index.end());
-    if (contact_.fidelity != Fidelity::linear) {
-      wall.assign(solved->state.active.end() - static_cast<std::ptrdiff_t>(wall.size()),
-                  solved->state.active.end());
     }
+    set.insert(set.end(), solved->state.active.begin() + static_cast<std::ptrdiff_t>(selection->index.size()),
+               solved->state.active.end());
+    warm = std::move(set);
     grown = select(std::move(index));
     selection = &grown;
   }
@@ -208,20 +297,18 @@ Outcome<PhaseModel::Solved> PhaseModel::solve_selection(const Selection& selecti
   return solved;
 }
 
-Eigen::VectorXd PhaseModel::gaps(std::span<const LoadedPoint> of, const Selection& selection,
-                                 const Solved& solved) const {
-  const std::vector<ToothFunctional> functionals = tooth_functionals(ring_, of);
+Eigen::VectorXd PhaseModel::gaps(const Selection& selection, const Solved& solved) const {
   const Eigen::VectorXd force = solved.state.force.head(selection.load.point_count);
   // Wall forces beyond those of the assembly; with the wall frozen: the reaction that keeps it where it stands.
   const Eigen::MatrixX2d change = contact_.fidelity == Fidelity::linear
                                       ? frozen_reaction(ring_, *assembled_, selection.load.points, force)
                                       : Eigen::MatrixX2d(solved.wall_force - assembled_->force_components());
-  Eigen::VectorXd gap = ring_.tooth_displacement(functionals, selection.load.points, force) -
-                        ring_.tooth_displacement(functionals, assembled_->stations, change);
+  Eigen::VectorXd gap = ring_.tooth_displacement(functionals_, selection.load.points, force) -
+                        ring_.tooth_displacement(functionals_, assembled_->stations, change);
   for (Eigen::Index i = 0; i < gap.size(); ++i) {
-    const LoadedPoint& point = of[static_cast<std::size_t>(i)];
-    gap(i) += std::cos(point.pressure_angle_rad) *
-              (point.backlash_mm - point.contact_radius_mm * solved.state.rotation);
+    const LoadedPoint& point = points_[static_cast<std::size_t>(i)];
+    const double turned = (point.coast ? -1.0 : 1.0) * point.contact_radius_mm * solved.state.rotation;
+    gap(i) += std::cos(point.pressure_angle_rad) * (point.backlash_mm - turned);
   }
   return gap;
 }

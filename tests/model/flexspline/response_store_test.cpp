@@ -76,6 +76,7 @@ TEST_F(Store, any_change_of_the_request_is_another_key) {
   EXPECT_TRUE(differs([](ResponseRequest& r) { r.teeth = false; }));
   EXPECT_TRUE(differs([](ResponseRequest& r) { r.sectors = 20; }));
   EXPECT_TRUE(differs([](ResponseRequest& r) { r.face_slices = 3; }));
+  EXPECT_TRUE(differs([](ResponseRequest& r) { r.both_flanks = true; }));
   EXPECT_TRUE(differs([](ResponseRequest& r) { r.sections = false; }));
   EXPECT_TRUE(differs([](ResponseRequest& r) {
     r.section_z_mm = r.wall_z_mm;
