@@ -28,6 +28,7 @@ struct LoadedPoint {
   double pressure_angle_rad = 0.0; ///< α′; 0: circumferential force
   int slice = -1;                  ///< of the face; −1: shared evenly by all
   double z_mm = 0.0;
+  bool edge = false; ///< a tip edge of either member touches, not flank on flank
 };
 
 struct LoadProblem {

@@ -55,8 +55,23 @@ struct PointResults {
   std::vector<int> tooth;
   std::vector<double> flank_radius_mm; ///< on the undeformed flexspline
   std::vector<double> z_mm;
+  std::vector<double> contact_radius_mm; ///< distance of the point from the gear's axis
   std::vector<double> force_n;
   std::vector<double> gap_um; ///< loaded; 0 where closed
+  std::vector<double> half_width_um; ///< of the contact along the flank (pressure.hpp); 0 without force
+  std::vector<double> pressure_mpa;  ///< peak over that width
+  std::vector<int> edge;             ///< 1: a tip edge touches; the pressure is a lower bound there
+};
+
+/// The largest pressure of a load and where it is, over teeth, points and phases; 0 without contact.
+struct PressurePeak {
+  double mpa = 0.0;
+  int tooth = 0;
+  double phi_deg = 0.0;
+  double flank_radius_mm = 0.0; ///< on the undeformed flexspline
+  double z_mm = 0.0;
+  double phase = 0.0;
+  bool edge = false;
 };
 
 /// Tooth forces at one meshing phase, every tooth that can carry load.
@@ -75,6 +90,8 @@ struct LoadResult {
   std::vector<double> phi_deg;
   std::vector<double> force_n;
   std::vector<double> loaded_backlash_um;
+  std::vector<double> pressure_mpa; ///< largest of the tooth's points
+  PressurePeak peak_pressure;
   int engaged_count = 0;
   double engaged_lo_deg = 0.0;
   double engaged_hi_deg = 0.0;
