@@ -34,7 +34,12 @@ void backlash(const BacklashResult& b, Out out) {
   fmt::format_to(
       out, "Backlash        least {:+.3f} µm at φ = {:.3f}°; {} of {} teeth reach the circular spline{}\n",
       b.min_um, b.min_phi_deg, reach, b.tooth.size(),
-      b.interference ? "; INTERFERENCE: flanks overlap before any load" : "");
+      b.interference && !b.assembled ? "; INTERFERENCE: flanks overlap before any load" : "");
+  if (const auto& a = b.assembled) {
+    fmt::format_to(out, "  … assembled   least {:+.3f} µm at φ = {:.3f}°, z = {:.2f} mm over the face of the coned cup{}\n",
+                   a->min_um, a->min_phi_deg, a->min_z_mm,
+                   a->interference ? "; INTERFERENCE: flanks overlap before any load" : "");
+  }
 }
 
 void backlash_table(const BacklashResult& b, Out out) {

@@ -24,6 +24,17 @@ struct WaveGeneratorResult {
   std::string shape;
 };
 
+/// Over the face of the assembled cup (contact.gaps = "assembled"; assembled_backlash.hpp). Drive flank.
+struct AssembledBacklash {
+  std::vector<double> z_mm;
+  std::vector<double> phi_deg;
+  std::vector<std::vector<double>> backlash_um; ///< [z][phi]; NaN where flanks do not overlap
+  double min_um = 0.0;                          ///< over continuous φ and the places z
+  double min_phi_deg = 0.0;
+  double min_z_mm = 0.0;
+  bool interference = false;
+};
+
 struct BacklashResult {
   std::vector<int> tooth;
   std::vector<double> phi_deg;
@@ -32,7 +43,8 @@ struct BacklashResult {
   std::vector<double> contact_radius_mm; ///< NaN where flanks do not overlap
   double min_um = 0.0;                   ///< over continuous φ
   double min_phi_deg = 0.0;
-  bool interference = false;
+  bool interference = false; ///< of these kinematic gaps
+  std::optional<AssembledBacklash> assembled;
 };
 
 struct AssemblyResult {

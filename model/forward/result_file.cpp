@@ -108,6 +108,18 @@ void put_all(const ForwardResult& result, hid_t file) {
     group.put("contact_radius", "mm", b->contact_radius_mm);
     group.put("min", "um", b->min_um);
     group.put("min_phi", "deg", b->min_phi_deg);
+    if (const auto& a = b->assembled) {
+      Group map(group.id(), "assembled");
+      map.put("z", "mm", a->z_mm);
+      map.put("phi", "deg", a->phi_deg);
+      std::vector<double> flat;
+      for (const auto& row : a->backlash_um)
+        flat.insert(flat.end(), row.begin(), row.end());
+      map.put("backlash", "um", flat, {a->z_mm.size(), a->phi_deg.size()});
+      map.put("min", "um", a->min_um);
+      map.put("min_phi", "deg", a->min_phi_deg);
+      map.put("min_z", "mm", a->min_z_mm);
+    }
   }
   if (const auto& a = result.assembly) {
     Group group(file, "assembly");

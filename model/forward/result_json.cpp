@@ -103,7 +103,18 @@ Json result_json(const ForwardResult& result) {
                         {"contact_radius_mm", numbers(b->contact_radius_mm)},
                         {"min_um", number(b->min_um)},
                         {"min_phi_deg", number(b->min_phi_deg)},
-                        {"interference", b->interference}};
+                        {"interference", b->assembled ? b->assembled->interference : b->interference}};
+    if (const auto& a = b->assembled) {
+      Json rows = Json::array();
+      for (const auto& row : a->backlash_um)
+        rows.push_back(numbers(row));
+      json["backlash"]["assembled"] = {{"z_mm", numbers(a->z_mm)},
+                                       {"phi_deg", numbers(a->phi_deg)},
+                                       {"backlash_um", std::move(rows)},
+                                       {"min_um", number(a->min_um)},
+                                       {"min_phi_deg", number(a->min_phi_deg)},
+                                       {"min_z_mm", number(a->min_z_mm)}};
+    }
   }
   if (const auto& a = result.assembly) {
     json["assembly"] = {{"contact_force_n", a->contact_force_n},
