@@ -34,7 +34,12 @@ void backlash(const BacklashResult& b, Out out) {
   fmt::format_to(
       out, "Backlash        least {:+.3f} µm at φ = {:.3f}°; {} of {} teeth reach the circular spline{}\n",
       b.min_um, b.min_phi_deg, reach, b.tooth.size(),
-      b.interference ? "; INTERFERENCE: flanks overlap before any load" : "");
+      b.interference && !b.assembled ? "; INTERFERENCE: flanks overlap before any load" : "");
+  if (const auto& a = b.assembled) {
+    fmt::format_to(out, "  … assembled   least {:+.3f} µm at φ = {:.3f}°, z = {:.2f} mm over the face of the coned cup{}\n",
+                   a->min_um, a->min_phi_deg, a->min_z_mm,
+                   a->interference ? "; INTERFERENCE: flanks overlap before any load" : "");
+  }
 }
 
 void backlash_table(const BacklashResult& b, Out out) {
@@ -75,6 +80,14 @@ void loads(const std::vector<LoadResult>& results, Out out) {
     }
     fmt::format_to(out, "\n");
   }
+  fmt::format_to(out, "\n");
+  for (const LoadResult& load : results) {
+    const PressurePeak& p = load.peak_pressure;
+    if (p.mpa > 0.0)
+      fmt::format_to(out, "Pressure        {:.0f} MPa at {:.3f} N·m{}: φ = {:.2f}°, radius {:.3f} mm of the flank, z = {:.2f} mm{}\n",
+                     p.mpa, load.torque_nm, load.direction == Direction::coast ? " (coast)" : "", p.phi_deg,
+                     p.flank_radius_mm, p.z_mm, p.edge ? "; a tip edge: at least that" : "");
+  }
 }
 
 void tooth_forces(const LoadResult& load, Out out) {
@@ -88,10 +101,10 @@ void tooth_forces(const LoadResult& load, Out out) {
       continue;
     const auto bar = static_cast<std::size_t>(std::lround(40.0 * load.force_n[i] / load.peak_force_n));
     if (load.force_n[i] > 0.0) {
-      fmt::format_to(out, "  {:>7.2f}° {:>8.2f} N  {}\n", load.phi_deg[i], load.force_n[i],
-                     std::string(bar, '#'));
+      fmt::format_to(out, "  {:>7.2f}° {:>8.2f} N {:>6.0f} MPa  {}\n", load.phi_deg[i], load.force_n[i],
+                     load.pressure_mpa[i], std::string(bar, '#'));
     } else {
-      fmt::format_to(out, "  {:>7.2f}° {:>8}    gap {:.2f} µm\n", load.phi_deg[i], "–",
+      fmt::format_to(out, "  {:>7.2f}° {:>8}               gap {:.2f} µm\n", load.phi_deg[i], "–",
                      load.loaded_backlash_um[i]);
     }
   }

@@ -64,6 +64,10 @@ double of_stiffness(std::span<const ForwardResult> results) {
 const std::array rows{
     Row{{"peak_force_n", "N", "largest meshing force of a tooth"},
         of_load<&LoadResult::peak_force_n, largest>},
+    Row{{"peak_pressure_mpa", "MPa", "largest contact pressure of a flank"},
+        [](std::span<const ForwardResult> r) {
+          return worst(r, largest, [](const LoadResult& load) { return load.peak_pressure.mpa; });
+        }},
     Row{{"force_ratio", "", "largest meshing force over the mean of the teeth that carry load"},
         [](std::span<const ForwardResult> r) { return worst(r, largest, force_ratio); }},
     Row{{"engaged_count", "", "teeth of one lobe that carry load"},

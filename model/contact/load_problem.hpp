@@ -37,6 +37,7 @@ struct LoadedPoint {
   int level =
       0; ///< which of its tooth's heights: of the hats, or −1 for the circular spline's tip edge; one point: 0
   bool coast = false; ///< on the coast flank: pushed towards larger φ, closed by a rotation towards smaller θ
+  bool edge = false; ///< a tip edge of either member touches, not flank on flank
 };
 
 struct LoadProblem {

@@ -112,7 +112,9 @@ std::vector<LoadedPoint> flank_points(const Gear& gear, const UnitResponses& res
                           .pressure_angle_rad = normal ? contact_pressure_angle(gear, pose, contact) : 0.0,
                           .slice = flanks.size() > 1 ? static_cast<int>(slice) : -1,
                           .z_mm = places[slice],
-                          .level = level});
+                          .level = level,
+                          .edge = contact.place == ContactPlace::flexspline_tip ||
+                                  contact.place == ContactPlace::circular_spline_tip});
       };
       if (gear.contact.flank_points == 1) { // the source text's model: the point of least gap
         const ToothBacklash contact = pair.drive(pose, space);

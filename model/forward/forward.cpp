@@ -153,6 +153,8 @@ std::optional<Failure> Analysis::stages() {
     return failure;
   if (auto failure = first_assembly())
     return failure;
+  if (auto failure = backlash_as_assembled())
+    return failure;
   if (auto failure = compliance())
     return failure;
   if (want_ == Want::compliance)

@@ -1,5 +1,7 @@
 #include "model/forward/load_cases.hpp"
 
+#include "model/forward/pressure.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +22,8 @@ struct Asked {
   double value = 0.0;
 };
 
-LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction direction, double phase) {
+LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction direction, double phase,
+                   FlankPressure& pressure) {
   LoadResult result;
   result.direction = direction;
   result.rotation_rad = load.rotation_rad;
@@ -33,6 +36,7 @@ LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction dir
   const bool coast = direction == Direction::coast;
   const std::vector<LoadedPoint>& points = model.points();
   const std::size_t n = points.size();
+  const std::vector<LineContact> contacts = pressure.of(points, load.force_n);
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = coast ? n - 1 - k : k; // ascending φ; the points of a tooth stand together
     const LoadedPoint& point = points[i];
@@ -42,14 +46,29 @@ LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction dir
       result.phi_deg.push_back((coast ? 0.0 - point.phi_rad : point.phi_rad) / degree); // 0 − 0 has no sign
       result.force_n.push_back(0.0);
       result.loaded_backlash_um.push_back(load.gap_um[i]);
+      result.pressure_mpa.push_back(0.0);
     }
     result.force_n.back() += load.force_n[i];
     result.loaded_backlash_um.back() = std::min(result.loaded_backlash_um.back(), load.gap_um[i]);
+    result.pressure_mpa.back() = std::max(result.pressure_mpa.back(), contacts[i].pressure_mpa);
+    if (contacts[i].pressure_mpa > result.peak_pressure.mpa) {
+      result.peak_pressure = {.mpa = contacts[i].pressure_mpa,
+                              .tooth = tooth,
+                              .phi_deg = result.phi_deg.back(),
+                              .flank_radius_mm = point.flank_radius_mm,
+                              .z_mm = point.z_mm,
+                              .phase = phase,
+                              .edge = point.edge};
+    }
     result.points.tooth.push_back(tooth);
     result.points.flank_radius_mm.push_back(point.flank_radius_mm);
     result.points.z_mm.push_back(point.z_mm);
+    result.points.contact_radius_mm.push_back(point.contact_radius_mm);
     result.points.force_n.push_back(load.force_n[i]);
     result.points.gap_um.push_back(load.gap_um[i]);
+    result.points.half_width_um.push_back(1e3 * contacts[i].half_width_mm);
+    result.points.pressure_mpa.push_back(contacts[i].pressure_mpa);
+    result.points.edge.push_back(point.edge ? 1 : 0);
   }
   if (result.tooth.size() == n)
     result.points = {}; // one point a tooth: nothing to add
@@ -72,7 +91,7 @@ LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction dir
 class Cases {
 public:
   Cases(const Gear& gear, const PhaseSource& source, ForwardResult& result)
-      : gear_(gear), source_(source), result_(result) {}
+      : gear_(gear), source_(source), result_(result), pressure_(gear) {}
 
   std::optional<Failure> run() {
     std::vector<Asked> asked;
@@ -112,6 +131,7 @@ private:
   std::optional<Failure> one_case(const Asked& asked, Direction direction) {
     std::optional<LoadResult> worst;
     std::vector<PhaseForces> phases;
+    PressurePeak peak_pressure;
     double least_rotation = std::numeric_limits<double>::infinity();
     double most_rotation = -least_rotation;
     for (int j = 0; j < gear_.load.phases; ++j) {
@@ -126,8 +146,10 @@ private:
         return load.failure();
       least_rotation = std::min(least_rotation, load->rotation_rad);
       most_rotation = std::max(most_rotation, load->rotation_rad);
-      LoadResult presented = present(**model, *load, direction, phase);
+      LoadResult presented = present(**model, *load, direction, phase, pressure_);
       phases.push_back({phase, presented.rotation_rad, presented.tooth, presented.force_n});
+      if (presented.peak_pressure.mpa > peak_pressure.mpa)
+        peak_pressure = presented.peak_pressure;
       if (!worst || presented.peak_force_n > worst->peak_force_n)
         worst = std::move(presented);
     }
@@ -139,6 +161,7 @@ private:
     }
     warn_of_slipping(most_rotation);
     worst->phases = std::move(phases);
+    worst->peak_pressure = peak_pressure;
     result_.load.push_back(std::move(*worst));
     return std::nullopt;
   }
@@ -226,6 +249,7 @@ private:
   const PhaseSource& source_;
   ForwardResult& result_;
   ContactSolver solver_;
+  FlankPressure pressure_;
 };
 
 } // namespace

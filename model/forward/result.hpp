@@ -24,6 +24,17 @@ struct WaveGeneratorResult {
   std::string shape;
 };
 
+/// Over the face of the assembled cup (contact.gaps = "assembled"; assembled_backlash.hpp). Drive flank.
+struct AssembledBacklash {
+  std::vector<double> z_mm;
+  std::vector<double> phi_deg;
+  std::vector<std::vector<double>> backlash_um; ///< [z][phi]; NaN where flanks do not overlap
+  double min_um = 0.0;                          ///< over continuous φ and the places z
+  double min_phi_deg = 0.0;
+  double min_z_mm = 0.0;
+  bool interference = false;
+};
+
 struct BacklashResult {
   std::vector<int> tooth;
   std::vector<double> phi_deg;
@@ -32,7 +43,8 @@ struct BacklashResult {
   std::vector<double> contact_radius_mm; ///< NaN where flanks do not overlap
   double min_um = 0.0;                   ///< over continuous φ
   double min_phi_deg = 0.0;
-  bool interference = false;
+  bool interference = false; ///< of these kinematic gaps
+  std::optional<AssembledBacklash> assembled;
 };
 
 struct AssemblyResult {
@@ -55,8 +67,23 @@ struct PointResults {
   std::vector<int> tooth;
   std::vector<double> flank_radius_mm; ///< on the undeformed flexspline
   std::vector<double> z_mm;
+  std::vector<double> contact_radius_mm; ///< distance of the point from the gear's axis
   std::vector<double> force_n;
   std::vector<double> gap_um; ///< loaded; 0 where closed
+  std::vector<double> half_width_um; ///< of the contact along the flank (pressure.hpp); 0 without force
+  std::vector<double> pressure_mpa;  ///< peak over that width
+  std::vector<int> edge;             ///< 1: a tip edge touches; the pressure is a lower bound there
+};
+
+/// The largest pressure of a load and where it is, over teeth, points and phases; 0 without contact.
+struct PressurePeak {
+  double mpa = 0.0;
+  int tooth = 0;
+  double phi_deg = 0.0;
+  double flank_radius_mm = 0.0; ///< on the undeformed flexspline
+  double z_mm = 0.0;
+  double phase = 0.0;
+  bool edge = false;
 };
 
 /// Tooth forces at one meshing phase, every tooth that can carry load.
@@ -75,6 +102,8 @@ struct LoadResult {
   std::vector<double> phi_deg;
   std::vector<double> force_n;
   std::vector<double> loaded_backlash_um;
+  std::vector<double> pressure_mpa; ///< largest of the tooth's points
+  PressurePeak peak_pressure;
   int engaged_count = 0;
   double engaged_lo_deg = 0.0;
   double engaged_hi_deg = 0.0;

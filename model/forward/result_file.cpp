@@ -63,10 +63,16 @@ void put_load(const LoadResult& load, Group& group) {
   group.put("phi", "deg", load.phi_deg);
   group.put("force", "N", load.force_n);
   group.put("loaded_backlash", "um", load.loaded_backlash_um);
+  group.put("pressure", "MPa", load.pressure_mpa);
   group.put("engaged_phi", "deg", {load.engaged_lo_deg, load.engaged_hi_deg});
   group.put("peak_force", "N", load.peak_force_n);
   group.put("peak_phi", "deg", load.peak_phi_deg);
   group.put("peak_phase", "1", load.peak_phase);
+  group.put("peak_pressure", "MPa", load.peak_pressure.mpa);
+  group.put("peak_pressure_phi", "deg", load.peak_pressure.phi_deg);
+  group.put("peak_pressure_flank_radius", "mm", load.peak_pressure.flank_radius_mm);
+  group.put("peak_pressure_z", "mm", load.peak_pressure.z_mm);
+  group.put("peak_pressure_phase", "1", load.peak_pressure.phase);
   group.put("tangent_stiffness", "N.m/rad", load.tangent_stiffness_nm_per_rad);
   group.put("disc_force", "N", load.disc_force_n);
   if (!load.points.tooth.empty()) {
@@ -74,8 +80,12 @@ void put_load(const LoadResult& load, Group& group) {
     points.put("tooth", load.points.tooth);
     points.put("flank_radius", "mm", load.points.flank_radius_mm);
     points.put("z", "mm", load.points.z_mm);
+    points.put("contact_radius", "mm", load.points.contact_radius_mm);
     points.put("force", "N", load.points.force_n);
     points.put("gap", "um", load.points.gap_um);
+    points.put("half_width", "um", load.points.half_width_um);
+    points.put("pressure", "MPa", load.points.pressure_mpa);
+    points.put("edge", load.points.edge);
   }
   if (load.transmission_error_arcsec)
     group.put("transmission_error", "arcsec", *load.transmission_error_arcsec);
@@ -98,6 +108,18 @@ void put_all(const ForwardResult& result, hid_t file) {
     group.put("contact_radius", "mm", b->contact_radius_mm);
     group.put("min", "um", b->min_um);
     group.put("min_phi", "deg", b->min_phi_deg);
+    if (const auto& a = b->assembled) {
+      Group map(group.id(), "assembled");
+      map.put("z", "mm", a->z_mm);
+      map.put("phi", "deg", a->phi_deg);
+      std::vector<double> flat;
+      for (const auto& row : a->backlash_um)
+        flat.insert(flat.end(), row.begin(), row.end());
+      map.put("backlash", "um", flat, {a->z_mm.size(), a->phi_deg.size()});
+      map.put("min", "um", a->min_um);
+      map.put("min_phi", "deg", a->min_phi_deg);
+      map.put("min_z", "mm", a->min_z_mm);
+    }
   }
   if (const auto& a = result.assembly) {
     Group group(file, "assembly");

@@ -44,12 +44,21 @@ Json load_json(const LoadResult& load) {
   json["phi_deg"] = numbers(load.phi_deg);
   json["force_n"] = numbers(load.force_n);
   json["loaded_backlash_um"] = numbers(load.loaded_backlash_um);
+  json["pressure_mpa"] = numbers(load.pressure_mpa);
   json["engaged_count"] = load.engaged_count;
   json["engaged_phi_deg"] =
       load.engaged_count > 0 ? Json::array({load.engaged_lo_deg, load.engaged_hi_deg}) : Json(nullptr);
   json["peak_force_n"] = load.peak_force_n;
   json["peak_phi_deg"] = load.engaged_count > 0 ? Json(load.peak_phi_deg) : Json(nullptr);
   json["peak_phase"] = load.peak_phase;
+  json["peak_pressure_mpa"] = load.peak_pressure.mpa;
+  if (load.peak_pressure.mpa > 0.0) {
+    const PressurePeak& at = load.peak_pressure;
+    json["peak_pressure_at"] = {{"tooth", at.tooth}, {"phi_deg", at.phi_deg}, {"height_mm", at.flank_radius_mm},
+                                {"z_mm", at.z_mm},   {"phase", at.phase},     {"edge", at.edge}};
+  } else {
+    json["peak_pressure_at"] = nullptr;
+  }
   json["tangent_stiffness_nm_per_rad"] = load.tangent_stiffness_nm_per_rad;
   json["disc_force_n"] = number(load.disc_force_n);
   if (load.transmission_error_arcsec)
@@ -60,8 +69,12 @@ Json load_json(const LoadResult& load) {
     json["points"] = {{"tooth", load.points.tooth},
                       {"height_mm", numbers(load.points.flank_radius_mm)},
                       {"z_mm", numbers(load.points.z_mm)},
+                      {"contact_radius_mm", numbers(load.points.contact_radius_mm)},
                       {"force_n", numbers(load.points.force_n)},
-                      {"gap_um", numbers(load.points.gap_um)}};
+                      {"gap_um", numbers(load.points.gap_um)},
+                      {"half_width_um", numbers(load.points.half_width_um)},
+                      {"pressure_mpa", numbers(load.points.pressure_mpa)},
+                      {"edge", load.points.edge}};
   }
   return json;
 }
@@ -90,7 +103,18 @@ Json result_json(const ForwardResult& result) {
                         {"contact_radius_mm", numbers(b->contact_radius_mm)},
                         {"min_um", number(b->min_um)},
                         {"min_phi_deg", number(b->min_phi_deg)},
-                        {"interference", b->interference}};
+                        {"interference", b->assembled ? b->assembled->interference : b->interference}};
+    if (const auto& a = b->assembled) {
+      Json rows = Json::array();
+      for (const auto& row : a->backlash_um)
+        rows.push_back(numbers(row));
+      json["backlash"]["assembled"] = {{"z_mm", numbers(a->z_mm)},
+                                       {"phi_deg", numbers(a->phi_deg)},
+                                       {"backlash_um", std::move(rows)},
+                                       {"min_um", number(a->min_um)},
+                                       {"min_phi_deg", number(a->min_phi_deg)},
+                                       {"min_z_mm", number(a->min_z_mm)}};
+    }
   }
   if (const auto& a = result.assembly) {
     json["assembly"] = {{"contact_force_n", a->contact_force_n},
