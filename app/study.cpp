@@ -39,6 +39,8 @@ ExitCode run(const StudyOptions& options) {
   const StopRequest stop(options.time_limit_s);
   catch_stop_signals();
   const StudyFile study = load_study(options.file, options.reduced, study_vocabulary());
+  if (study.kind != StudyKind::optimize && study.kind != StudyKind::pareto)
+    throw UsageError(study.file + ": this kind of study cannot be run by this version");
   const ResultFolder folder(options.out.empty() ? default_result_folder(study)
                                                 : std::filesystem::path(options.out));
   if (const std::string reason = folder.occupied(study); !reason.empty())
