@@ -63,6 +63,10 @@ struct SampledStudy {
   std::optional<MorrisPoints> morris;   ///< with index_names.size() inputs
   std::function<std::vector<LocalElasticity>(const RowTable&)> elasticities; ///< local
 
+  /// The gear of one row with its loads, for `eval --gear`; may be absent (errors of single teeth are no keys). Throws
+  /// FieldError where the row has none.
+  std::function<std::optional<Gear>(std::uint64_t row)> gear_of_row;
+
   /// `eval --json`: everything about one row, drawn and computed again, as one JSON object (text). May be absent; then
   /// named inputs and outputs are all there is.
   std::function<std::string(std::uint64_t row)> describe_row;

@@ -9,8 +9,9 @@ namespace strainwave {
 
 namespace fs = std::filesystem;
 
-StudyReader::StudyReader(const std::string& name, bool reduced, const StudyVocabulary& vocabulary)
-    : folder_(fs::path(name).parent_path()), vocabulary_(vocabulary) {
+StudyReader::StudyReader(const std::string& name, bool reduced, const StudyVocabulary& vocabulary,
+                         std::optional<std::string_view> gear_text)
+    : folder_(fs::path(name).parent_path()), vocabulary_(vocabulary), gear_text_(gear_text) {
   study_.file = name;
   study_.reduced = reduced;
 }
@@ -172,7 +173,7 @@ void StudyReader::read_gear(const toml::table& root) {
   const std::string path = fs::absolute(folder_ / study_.gear_file).lexically_normal().string();
   study_.gear_file = path;
   std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) {
+  if (!gear_text_ && !fs::is_regular_file(path, ignored)) {
     try {
       (void)read_text_file(path, "gear file");
     } catch (const FileError& error) {
@@ -181,7 +182,7 @@ void StudyReader::read_gear(const toml::table& root) {
       return;
     }
   }
-  study_.gear = load_gear(path).gear;
+  study_.gear = gear_text_ ? parse_gear(*gear_text_, study_.file).gear : load_gear(path).gear;
   if (const toml::node* node = root.get("override"); node && node->is_table()) {
     apply_overrides(study_.gear, *node->as_table(), folder_, faults_);
     note_changes(study_.overrides, *node->as_table(), "");
@@ -208,6 +209,11 @@ StudyFile parse_study(std::string_view text, const std::string& name, bool reduc
     throw FileError(
         name, {{{1, 1}, "", "the file gives no key; expected kind, gear, [[variable]], [objective] …", ""}});
   return StudyReader(name, reduced, vocabulary).read(root);
+}
+
+StudyFile restore_study(std::string_view text, std::string_view gear_text, const std::string& name,
+                        const StudyVocabulary& vocabulary) {
+  return StudyReader(name, false, vocabulary, gear_text).read(parse_toml(text, name));
 }
 
 bool is_study_text(std::string_view text) {

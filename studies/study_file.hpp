@@ -146,6 +146,11 @@ StudyFile load_study(const std::string& path, bool reduced = false, const StudyV
 StudyFile parse_study(std::string_view text, const std::string& name, bool reduced = false,
                       const StudyVocabulary& vocabulary = {});
 
+/// A study from what write_study() and write_gear(study.gear) have given: needs no other file, so that a study's folder can
+/// be read on another machine. `name`: of the file that holds both, for messages.
+StudyFile restore_study(std::string_view text, std::string_view gear_text, const std::string& name,
+                        const StudyVocabulary& vocabulary = {});
+
 /// Does this TOML text describe a study (and not a gear)? False for what is no TOML.
 bool is_study_text(std::string_view text);
 

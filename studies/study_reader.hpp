@@ -16,7 +16,9 @@ namespace strainwave {
 
 class StudyReader {
 public:
-  StudyReader(const std::string& name, bool reduced, const StudyVocabulary& vocabulary);
+  /// `gear_text`: instead of the gear file that the study names.
+  StudyReader(const std::string& name, bool reduced, const StudyVocabulary& vocabulary,
+              std::optional<std::string_view> gear_text = {});
   StudyFile read(const toml::table& root);
 
 private:
@@ -144,6 +146,7 @@ private:
   StudyFile study_;
   std::filesystem::path folder_;
   const StudyVocabulary& vocabulary_;
+  std::optional<std::string_view> gear_text_;
   std::vector<FileFault> faults_;
   std::map<std::string, Place> given_; ///< keys that the file gives, right or wrong
   StudyPlaces places_;                 ///< values that were read, and tables
