@@ -84,6 +84,10 @@ void add_study(CLI::App& app, Command& chosen) {
   CLI::App* study = app.add_subcommand("study", "Many gears at once: optimisation, sweeps, tolerances");
   study->require_subcommand(0, 1);
   add_run(*study, chosen);
+  add_study_plan(*study, chosen);
+  add_study_status(*study, chosen);
+  add_study_merge(*study, chosen);
+  add_study_compare(*study, chosen);
 }
 
 } // namespace strainwave::app

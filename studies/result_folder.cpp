@@ -63,8 +63,8 @@ fs::path ResultFolder::journal(std::uint32_t shard, std::uint32_t shards) const 
   return shard_journal(path_, shard, shards);
 }
 
-std::string ResultFolder::known_verdict() const {
-  const auto known = read_json(path_ / "result.json");
+std::string known_verdict(const fs::path& folder) {
+  const auto known = read_json(folder / "result.json");
   return known.is_object() ? known.value("verdict", "") : "";
 }
 

@@ -32,12 +32,13 @@ public:
   void write_text(const char* name, std::string_view text) const;
   /// DIR/shards/IIII-of-NNNN.journal; makes the folder of the shards.
   std::filesystem::path journal(std::uint32_t shard = 0, std::uint32_t shards = 1) const;
-  /// The `verdict` of result.json; empty where there is none.
-  std::string known_verdict() const;
 
 private:
   std::filesystem::path path_;
 };
+
+/// The `verdict` of DIR/result.json; empty where there is none.
+std::string known_verdict(const std::filesystem::path& folder);
 
 /// The study of a folder, from plan.json alone. Throws FileError where there is no plan or one of another version of the
 /// program.

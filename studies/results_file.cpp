@@ -60,7 +60,7 @@ void write_results_file(const OptimisationReport& report, const std::filesystem:
 
 bool write_search_results(const ResultFolder& folder, const OptimisationReport& report) {
   if (report.verdict == Verdict::stopped) {
-    const std::string known = folder.known_verdict();
+    const std::string known = known_verdict(folder.path());
     if (!known.empty() && known != "stopped")
       return false;
   }

@@ -73,6 +73,14 @@ public:
 
   std::uint64_t rows() const { return rows_; }
   std::size_t columns() const { return values_.size(); }
+  /// Of a factorial sweep; a list may have a cup in every row.
+  std::uint64_t cups(const StudyFile& study) const {
+    std::uint64_t cups = 1;
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      if (cost_rank(study.sweep_variables[i].path) == 0)
+        cups *= list_ ? (cups > 1 ? 1 : rows_) : values_[i].size();
+    return cups;
+  }
 
   void fill(std::uint64_t first, std::size_t count, std::span<double> rows) const {
     for (std::size_t k = 0; k < count; ++k) {
@@ -204,6 +212,7 @@ Outcome<SampledStudy> make_sweep_rows(const StudyFile& study, const RowOptions& 
   };
   sampled.input_values = sampled.inputs;
   sampled.rows = grid->rows();
+  sampled.cups = grid->cups(study);
   sampled.block_rows = 8; // some 10 ms each on a cup that is known
   sampled.slice_rows = 1;
   sampled.status_names = row_status_names();
