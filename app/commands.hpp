@@ -19,6 +19,13 @@ void add_analyze(CLI::App& app, Command& chosen);
 void add_check(CLI::App& app, Command& chosen);
 void add_export(CLI::App& app, Command& chosen);
 void add_study(CLI::App& app, Command& chosen);
+void add_eval(CLI::App& app, Command& chosen);
+
+/// Below `study`.
+void add_study_plan(CLI::App& study, Command& chosen);
+void add_study_status(CLI::App& study, Command& chosen);
+void add_study_merge(CLI::App& study, Command& chosen);
+void add_study_compare(CLI::App& study, Command& chosen);
 
 /// The text of studies/gallery/seed.toml.
 extern const std::string_view example_text;

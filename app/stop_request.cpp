@@ -1,7 +1,13 @@
 #include "app/stop_request.hpp"
 
+#include "app/exit_codes.hpp"
+#include "app/output.hpp"
+
 #include <atomic>
+#include <condition_variable>
 #include <csignal>
+#include <cstdlib>
+#include <mutex>
 
 namespace strainwave::app {
 
@@ -21,6 +27,29 @@ void catch_stop_signals() {
   for (const int number : {SIGINT, SIGTERM, SIGUSR1})
     std::signal(number, on_signal);
 }
+
+bool stop_signalled() {
+  return signalled;
+}
+
+StopGuard::StopGuard(std::function<bool()> stop)
+    : watch_([asked = std::move(stop)](const std::stop_token& done) {
+        using namespace std::chrono_literals;
+        std::optional<std::chrono::steady_clock::time_point> leave;
+        std::mutex mutex;
+        std::condition_variable_any wake;
+        std::unique_lock lock(mutex);
+        while (!done.stop_requested()) {
+          wake.wait_for(lock, done, 50ms, [] { return false; });
+          const auto now = std::chrono::steady_clock::now();
+          if (!leave && asked())
+            leave = now + 4800ms;
+          if (leave && now >= *leave && !done.stop_requested()) {
+            report("stopped early with work in flight, which is dropped; run again to go on");
+            std::_Exit(static_cast<int>(ExitCode::stopped));
+          }
+        }
+      }) {}
 
 StopRequest::StopRequest(std::optional<double> time_limit_s) {
   if (time_limit_s)

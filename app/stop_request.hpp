@@ -4,12 +4,27 @@
 // ExitCode::stopped.
 
 #include <chrono>
+#include <functional>
 #include <optional>
+#include <thread>
 
 namespace strainwave::app {
 
 /// From here on the signals set a flag instead of ending the program; a second one ends it at once.
 void catch_stop_signals();
+
+/// Has one of the signals come?
+bool stop_signalled();
+
+/// Leaves the program with ExitCode::stopped 4.8 s after a stop was asked for, whatever it is doing then: batch systems kill
+/// soon after. Nothing that counts is lost: journals are synced every second, other files are renamed into place.
+class StopGuard {
+public:
+  explicit StopGuard(std::function<bool()> stop);
+
+private:
+  std::jthread watch_;
+};
 
 class StopRequest {
 public:

@@ -1,94 +1,93 @@
+#include "app/study.hpp"
+
 #include "app/commands.hpp"
 #include "app/output.hpp"
-#include "app/progress_line.hpp"
 #include "app/stop_request.hpp"
-#include "studies/optimisation_text.hpp"
-#include "studies/result_folder.hpp"
-
-#include <nlohmann/json.hpp>
+#include "studies/optimisation.hpp"
 
 #include <memory>
-#include <optional>
 
 namespace strainwave::app {
 
 namespace {
 
-struct StudyOptions {
-  std::string file;
-  std::string out;
-  bool reduced = false;
-  bool json = false;
-  bool no_cache = false;
-  int threads = 0;
-  std::optional<double> time_limit_s;
-};
-
-ExitCode exit_code(Verdict verdict) {
-  switch (verdict) {
-  case Verdict::stopped:
-    return ExitCode::stopped;
-  case Verdict::infeasible:
-    return ExitCode::no_result;
-  default:
-    return ExitCode::done;
-  }
-}
-
 ExitCode run(const StudyOptions& options) {
   const StopRequest stop(options.time_limit_s);
   catch_stop_signals();
+  const StopGuard guard(stop);
   const StudyFile study = load_study(options.file, options.reduced, study_vocabulary());
-  const ResultFolder folder(options.out.empty() ? default_result_folder(study)
-                                                : std::filesystem::path(options.out));
-  if (const std::string reason = folder.occupied(study); !reason.empty())
-    throw UsageError(reason);
-  folder.write_plan(study);
-
-  const auto responses = gear_responses();
-  const Response& objective = responses[*find_response(responses, study.objective.output)];
-  std::optional<ProgressLine> line(std::in_place, std::string(objective.name), std::string(objective.unit));
-  const auto report_now = run_optimisation(
-      study, {.threads = options.threads,
-              .disk_cache = !options.no_cache,
-              .stop = stop,
-              .progress = [&](const SearchProgress& progress) { line->show(progress, stop.seconds_left()); },
-              .warn = [](const std::string& sentence) { report(sentence); }});
-  line.reset();
-  if (!report_now) {
-    report(report_now.failure().message);
-    return ExitCode::no_result;
-  }
-  if (!folder.write_results(*report_now))
-    report("the folder keeps the finished result of an earlier run; this one was stopped early");
-  const std::string name = folder.path().string();
-  print(options.json ? optimisation_json(*report_now, name).dump(2) + "\n"
-                     : optimisation_table(*report_now, name));
-  if (report_now->verdict != Verdict::converged)
-    report(std::string(verdict_name(report_now->verdict)) + ": " + report_now->message);
-  return exit_code(report_now->verdict);
+  if (!is_sampled(study.kind) && !options.shard.empty())
+    throw UsageError(
+        "--shard is for studies whose points are known in advance (sweep, monte_carlo without stop, "
+        "sensitivity); a search chooses every point by the ones before it");
+  const ResultFolder folder = prepare_folder(options, study);
+  return with_journals([&] {
+    return is_sampled(study.kind) ? run_rows_of(options, study, folder) : run_search(options, study, folder);
+  });
 }
 
-} // namespace
-
-void add_study(CLI::App& app, Command& chosen) {
-  CLI::App* study = app.add_subcommand("study", "Many gears at once: optimisation");
-  study->require_subcommand(0, 1);
-  CLI::App* command = study->add_subcommand("run", "Run a study file; the result beside the unmodified gear");
+void add_run(CLI::App& study, Command& chosen) {
+  CLI::App* command = study.add_subcommand("run", "Run a study file, or go on with it where it was stopped");
   command->footer(
-      "The verdict is the program's own: the optimum is searched again from close by and evaluated afresh.\n"
-      "Exit code 3: no feasible design (the nearest one is shown); 75: stopped early.\n"
+      "Every evaluation is kept in the folder; the same command again goes on where it was stopped.\n"
+      "Exit code 3: no feasible design, or too many failed evaluations; 75: stopped early, run again.\n"
       "Example:  strainwave study run studies/gallery/seed_optimize.toml");
   const auto options = std::make_shared<StudyOptions>();
   command->add_option("STUDY", options->file, "A study file (TOML)")->required();
   command->add_option("--out", options->out, "Folder for the results (default: ./NAME-result)");
   command->add_flag("--reduced", options->reduced, "A small version of the study, as its [reduced] says");
   command->add_option("--threads", options->threads, "Threads (0: all cores)")->check(CLI::NonNegativeNumber);
+  command->add_option("--shard", options->shard,
+                      "I/N: only part I (from 0) of N; join them with `study merge`");
   command->add_option("--time-limit", options->time_limit_s, "Stop after so many seconds")
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--json", options->json, "Print one JSON object instead of the table");
   command->add_flag("--no-cache", options->no_cache, "Neither read nor write the cache of solved cups");
   command->callback([&chosen, options] { chosen = [options] { return run(*options); }; });
+}
+
+} // namespace
+
+ExitCode with_journals(const std::function<ExitCode()>& command) {
+  try {
+    return command();
+  } catch (const JournalError& error) {
+    report(error.what());
+    switch (error.fault) {
+    case JournalFault::other_plan:
+    case JournalFault::other_model:
+    case JournalFault::other_shape:
+    case JournalFault::not_a_journal:
+      return ExitCode::wrong_input;
+    case JournalFault::contradiction:
+      return ExitCode::no_result;
+    case JournalFault::gaps:
+      return ExitCode::stopped;
+    case JournalFault::locked:
+    case JournalFault::damaged:
+      break;
+    }
+    return ExitCode::environment;
+  }
+}
+
+ResultFolder prepare_folder(const StudyOptions& options, const StudyFile& study) {
+  ResultFolder folder(options.out.empty() ? default_result_folder(study)
+                                          : std::filesystem::path(options.out));
+  if (const std::string reason = folder.occupied(study); !reason.empty())
+    throw UsageError(reason);
+  folder.write_plan(study);
+  return folder;
+}
+
+void add_study(CLI::App& app, Command& chosen) {
+  CLI::App* study = app.add_subcommand("study", "Many gears at once: optimisation, sweeps, tolerances");
+  study->require_subcommand(0, 1);
+  add_run(*study, chosen);
+  add_study_plan(*study, chosen);
+  add_study_status(*study, chosen);
+  add_study_merge(*study, chosen);
+  add_study_compare(*study, chosen);
 }
 
 } // namespace strainwave::app

@@ -81,17 +81,7 @@ Gear gear_of(const OptimisationReport& report, const DesignSpace& design, const 
     return report.study.gear;
   Gear gear = design.apply(report.study.gear, design.unscaled(judgement.best->y));
   gear.name = report.study.gear.name + ", optimised";
-  // the study's loads, so that an analysis of this gear gives the study's numbers
-  gear.load.torque_nm.clear();
-  gear.load.rotation_rad.clear();
-  gear.load.phases = 1;
-  for (const LoadCase& load : report.study.load_cases) {
-    if (load.torque_nm)
-      gear.load.torque_nm.push_back(*load.torque_nm);
-    if (load.rotation_rad)
-      gear.load.rotation_rad.push_back(*load.rotation_rad);
-    gear.load.phases = std::max(gear.load.phases, load.phases);
-  }
+  gear.load = gear_with_loads(report.study).load;
   return gear;
 }
 
@@ -151,6 +141,24 @@ StudyVocabulary study_vocabulary() {
           .unavailable = [](std::string_view output, const StudyFile& study) {
             return find_unavailable_response(output, study.gear, study_loads(study));
           }};
+}
+
+Gear gear_with_loads(const StudyFile& study) {
+  Gear gear = study.gear;
+  gear.load.torque_nm.clear();
+  gear.load.rotation_rad.clear();
+  gear.load.phases = 1;
+  gear.load.direction = study.load_cases.front().direction;
+  for (const LoadCase& load : study.load_cases) {
+    if (load.torque_nm)
+      gear.load.torque_nm.push_back(*load.torque_nm);
+    if (load.rotation_rad)
+      gear.load.rotation_rad.push_back(*load.rotation_rad);
+    gear.load.phases = std::max(gear.load.phases, load.phases);
+    if (load.direction != gear.load.direction)
+      gear.load.direction = Direction::both;
+  }
+  return gear;
 }
 
 std::vector<Load> study_loads(const StudyFile& study) {

@@ -1,14 +1,17 @@
 #pragma once
-// The folder of a study. Every file is written beside its place and renamed into it, so a reader never sees
-// half of one.
+// The folder of a study. Every file is written beside its place, synced and renamed into it, so a reader never sees half
+// of one.
 //
-//   plan.json     what is to be done: the resolved study, the gear, hash; written before the first evaluation
-//   results.h5    every evaluation, see results_file.hpp
+//   plan.json     what is to be done: the resolved study, the gear, hash; written before the first evaluation, then
+//                 never again
+//   shards/       the journals: the truth about what has been evaluated
+//   results.h5    every evaluation, derived from the journals; see journal/results_table.hpp
 //   result.json   what `study run --json` prints
-//   best.toml     the optimised gear; `analyze` and `check` read it
+//   best.toml     optimize, pareto: the optimised gear; `analyze` and `check` read it
 
-#include "studies/optimisation.hpp"
+#include "studies/study_file.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -21,20 +24,35 @@ public:
   explicit ResultFolder(std::filesystem::path path);
 
   const std::filesystem::path& path() const { return path_; }
-  /// Why this folder is not to be written by this study: it holds the results of another one, or other files. Empty: it may.
+  /// Why this folder is not to be written by this study: it holds the results of another one, or other files. Empty: it
+  /// may.
   std::string occupied(const StudyFile& study) const;
+  /// Nothing where the same plan is there already.
   void write_plan(const StudyFile& study) const;
-  /// False, and nothing written, when the run was stopped early and the folder already has a finished result.
-  bool write_results(const OptimisationReport& report) const;
+  void write_text(const char* name, std::string_view text) const;
+  /// DIR/shards/IIII-of-NNNN.journal; makes the folder of the shards.
+  std::filesystem::path journal(std::uint32_t shard = 0, std::uint32_t shards = 1) const;
 
 private:
-  void write_text(const char* name, std::string_view text) const;
-
   std::filesystem::path path_;
 };
 
-/// Identifies a study: its resolved text, the bits of its gear, and the program's version.
-std::string plan_hash(const StudyFile& study);
+/// The `verdict` of DIR/result.json; empty where there is none.
+std::string known_verdict(const std::filesystem::path& folder);
+
+/// The study of a folder, from plan.json alone. Throws FileError where there is no plan or one of another version of the
+/// program.
+StudyFile read_plan(const std::filesystem::path& folder, const StudyVocabulary& vocabulary = {});
+
+/// Identifies a study: its resolved text (without the place of the gear file), the bits of its gear, and the program's
+/// version.
+std::uint64_t plan_hash(const StudyFile& study);
+
+/// Resolved study and gear as one text: /config of results.h5.
+std::string config_text(const StudyFile& study);
+
+/// "0.1.0"
+std::string_view study_version();
 
 /// "./seed_optimize-result" for studies/gallery/seed_optimize.toml, "…-reduced-result" for a reduced one.
 std::filesystem::path default_result_folder(const StudyFile& study);

@@ -1,117 +1,78 @@
 #include "studies/results_file.hpp"
 
 #include "model/gear_file/gear_file.hpp"
+#include "studies/journal/content_hash.hpp"
+#include "studies/journal/results_table.hpp"
+#include "studies/optimisation_text.hpp"
+#include "studies/row_status.hpp"
+#include "studies/study_units.hpp"
 
-#include <fmt/format.h>
-#include <hdf5.h>
-#include <hdf5_hl.h>
+#include <nlohmann/json.hpp>
 
-#include <cerrno>
-#include <limits>
-#include <system_error>
+#include <algorithm>
 
 namespace strainwave {
 
 namespace {
 
-template <class T>
-T check(T code) {
-  if (code < 0)
-    throw std::system_error(EIO, std::generic_category(), "HDF5 refused to write the results");
-  return code;
+std::uint8_t status_of(const Evaluation& e, const std::vector<std::string>& names) {
+  const auto known = std::ranges::find(names, e.status);
+  return known != names.end() ? static_cast<std::uint8_t>(known - names.begin()) : row_out_of_range;
 }
 
-/// HDF5 has no units of its own and no micro sign in plain names.
-std::string plain_unit(std::string_view unit) {
-  if (unit == "µm")
-    return "um";
-  if (unit == "N·m")
-    return "N.m";
-  if (unit == "N·m/rad")
-    return "N.m/rad";
-  return unit.empty() ? "1" : std::string(unit);
-}
-
-void put_table(hid_t file, const char* name, std::size_t rows, const std::vector<double>& values,
-               const std::string& names, const std::string& units) {
-  const hsize_t shape[2] = {rows, rows > 0 ? values.size() / rows : 0};
-  check(H5LTmake_dataset_double(file, name, 2, shape, values.data()));
-  check(H5LTset_attribute_string(file, name, "names", names.c_str()));
-  check(H5LTset_attribute_string(file, name, "units", units.c_str()));
-}
-
-void put_texts(hid_t file, const char* name, const std::vector<const char*>& texts) {
-  const hid_t type = check(H5Tcopy(H5T_C_S1));
-  check(H5Tset_size(type, H5T_VARIABLE));
-  check(H5Tset_cset(type, H5T_CSET_UTF8));
-  const hsize_t count = texts.size();
-  const herr_t code = H5LTmake_dataset(file, name, 1, &count, type, texts.data());
-  H5Tclose(type);
-  check(code);
-}
-
-void put_all(const OptimisationReport& report, hid_t file) {
-  const std::size_t rows = report.points.size();
-  std::vector<double> inputs, outputs, seconds;
-  std::vector<const char*> status, messages;
-  for (const StoredPoint& point : report.points) {
-    const Evaluation& e = *point.evaluation;
-    inputs.insert(inputs.end(), point.x.begin(), point.x.end());
-    if (e.ok)
-      outputs.insert(outputs.end(), e.values.begin(), e.values.end());
-    else
-      outputs.insert(outputs.end(), gear_responses().size(), std::numeric_limits<double>::quiet_NaN());
-    seconds.push_back(point.seconds);
-    status.push_back(e.status.c_str());
-    messages.push_back(e.message.c_str());
+RowTable table_of(const OptimisationReport& report, const std::vector<std::string>& names) {
+  const auto outputs = static_cast<std::uint32_t>(gear_responses().size());
+  RowTable table(report.points.size(), outputs, 1);
+  for (std::size_t i = 0; i < report.points.size(); ++i) {
+    const Evaluation& e = *report.points[i].evaluation;
+    RowBlock block{.first = i, .rows = 1, .outputs = outputs, .seconds = report.points[i].seconds};
+    block.status = {e.ok ? row_ok : status_of(e, names)};
+    block.values = e.ok ? e.values : std::vector<double>(outputs, 0.0);
+    if (!e.ok)
+      block.messages.push_back({0, e.message});
+    table.insert(block);
   }
-  std::string names, units;
-  const std::size_t variables = report.study.variables.size();
-  for (std::size_t i = 0; i < variables; ++i) {
-    names += fmt::format("{}{}", i ? "\n" : "", report.inputs[i].path);
-    units += fmt::format("{}{}", i ? "\n" : "", plain_unit(report.inputs[i].unit));
-  }
-  put_table(file, "inputs", rows, inputs, names, units);
-  names.clear();
-  units.clear();
-  for (const Response& response : gear_responses()) {
-    names += fmt::format("{}{}", names.empty() ? "" : "\n", response.name);
-    units += fmt::format("{}{}", units.empty() ? "" : "\n", plain_unit(response.unit));
-  }
-  put_table(file, "outputs", rows, outputs, names, units);
-  put_texts(file, "status", status);
-  put_texts(file, "messages", messages);
-  const hsize_t count = rows;
-  check(H5LTmake_dataset_double(file, "timing", 1, &count, seconds.data()));
-  check(H5LTset_attribute_string(file, "timing", "units", "s"));
-  check(H5LTmake_dataset_string(
-      file, "config", (write_study(report.study) + "\n# gear\n" + write_gear(report.study.gear)).c_str()));
-  check(H5LTmake_dataset_string(file, "version", STRAINWAVE_VERSION));
-  check(H5Fflush(file, H5F_SCOPE_GLOBAL));
+  return table;
 }
 
 } // namespace
 
 void write_results_file(const OptimisationReport& report, const std::filesystem::path& path) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // errors are reported by exception, not printed
   if (report.points.empty())
     return; // stopped before the first evaluation
-  const std::filesystem::path beside = path.string() + ".part";
-  errno = 0;
-  const hid_t file = H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  if (file < 0)
-    throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(),
-                            "cannot write " + path.string());
-  try {
-    put_all(report, file);
-  } catch (...) {
-    H5Fclose(file);
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
-    throw;
+  ResultsTable results;
+  for (std::size_t i = 0; i < report.study.variables.size(); ++i)
+    results.inputs.push_back({report.inputs[i].path, plain_unit(report.inputs[i].unit)});
+  for (const Response& response : gear_responses())
+    results.outputs.push_back({std::string(response.name), plain_unit(response.unit)});
+  results.input_rows = [&](std::uint64_t first, std::size_t count, std::span<double> rows) {
+    for (std::size_t k = 0; k < count; ++k)
+      std::ranges::copy(report.points[first + k].x,
+                        rows.begin() + static_cast<std::ptrdiff_t>(k * results.inputs.size()));
+  };
+  results.status_names = row_status_names();
+  results.config = config_text(report.study);
+  results.version = study_version();
+  results.plan_hash = plan_hash(report.study);
+  results.model_hash = search_model_hash();
+  write_results_table(results, table_of(report, results.status_names), path);
+}
+
+bool write_search_results(const ResultFolder& folder, const OptimisationReport& report) {
+  if (report.verdict == Verdict::stopped) {
+    const std::string known = known_verdict(folder.path());
+    if (!known.empty() && known != "stopped")
+      return false;
   }
-  check(H5Fclose(file));
-  std::filesystem::rename(beside, path);
+  write_results_file(report, folder.path() / "results.h5");
+  folder.write_text("result.json", optimisation_json(report, folder.path().string()).dump(2) + "\n");
+  if (report.best_gear)
+    folder.write_text("best.toml", write_gear(*report.best_gear));
+  return true;
+}
+
+std::uint64_t search_model_hash() {
+  return content_hash(std::string(study_version()) + " search 1");
 }
 
 } // namespace strainwave

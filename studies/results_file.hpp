@@ -1,19 +1,21 @@
 #pragma once
-// results.h5 of a study: one row per evaluation. Derived, never opened for update; h5py reads it in ten
-// lines.
-//
-//   /inputs   rows × variables, attributes "names" and "units" (one line each, in the order of the columns)
-//   /outputs  rows × responses, the same; NaN for a failed evaluation
-//   /status   text per row: "ok" or what went wrong;  /messages  the sentence;  /timing  seconds
-//   /config   the resolved study and the gear file;  /version
+// results.h5 of a search, in the same form as that of every other study (journal/results_table.hpp): one row for every
+// point that was evaluated.
 
 #include "studies/optimisation.hpp"
-
-#include <filesystem>
+#include "studies/result_folder.hpp"
 
 namespace strainwave {
 
-/// Throws std::system_error with the cause when the file cannot be written.
+/// Nothing is written without any point. Throws std::system_error (full disk, permissions); a file that was there then
+/// stays as it was.
 void write_results_file(const OptimisationReport& report, const std::filesystem::path& path);
+
+/// results.h5, result.json and best.toml. False, and nothing written, when the run was stopped early and the folder already
+/// has a finished result.
+bool write_search_results(const ResultFolder& folder, const OptimisationReport& report);
+
+/// What a point of a search depends on beside its plan: the version of the forward model's numbers.
+std::uint64_t search_model_hash();
 
 } // namespace strainwave

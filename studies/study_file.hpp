@@ -1,6 +1,6 @@
 #pragma once
-// Study files: TOML that names a gear, what may vary, what is wanted and how to search. This version runs
-// kind = "optimize" and "pareto"; the other kinds of studies are known by name and refused with a sentence.
+// Study files: TOML that names a gear, what may vary, what is wanted and how to search. What sweeps, tolerances and
+// sensitivities say stands in study_sampling.hpp; the rest here.
 //
 //     kind = "optimize"
 //     gear = "seed.toml"                          # relative to the study file
@@ -29,6 +29,7 @@
 
 #include "model/gear/fields.hpp"
 #include "model/gear_file/file_error.hpp"
+#include "studies/study_sampling.hpp"
 
 #include <functional>
 #include <limits>
@@ -40,7 +41,11 @@
 
 namespace strainwave {
 
-enum class StudyKind { optimize, pareto };
+enum class StudyKind { optimize, pareto, sweep, monte_carlo, sensitivity };
+
+/// Their names in files.
+inline constexpr std::array<std::string_view, 5> study_kinds{"optimize", "pareto", "sweep", "monte_carlo",
+                                                             "sensitivity"};
 
 /// Exactly one of torque and rotation is given.
 struct LoadCase {
@@ -48,12 +53,6 @@ struct LoadCase {
   std::optional<double> rotation_rad;
   int phases = 1; ///< meshing positions over one pitch
   Direction direction = Direction::drive;
-};
-
-/// Another number of the gear that moves with a variable: number at `path` = ratio · variable.
-struct VariableLink {
-  std::string path;
-  double ratio = 1.0;
 };
 
 struct StudyVariable {
@@ -113,11 +112,18 @@ struct StudyFile {
   bool reduced = false;
   Gear gear; ///< the gear's file with [override] applied (and [reduced], if asked for): the baseline
   std::vector<LoadCase> load_cases;     ///< never empty
-  std::vector<StudyVariable> variables; ///< never empty
+  std::vector<StudyVariable> variables; ///< never empty in optimize and pareto
   StudyObjective objective;
   std::vector<StudyConstraint> constraints;
   StudyPareto pareto; ///< output is empty in other kinds
   StudyMethod method;
+  std::vector<SweepVariable> sweep_variables; ///< sweep: never empty
+  StudySweep sweep;
+  std::vector<StudySource> sources; ///< monte_carlo, sensitivity: never empty
+  std::vector<StudyCorrelation> correlations;
+  StudySampling sampling;                   ///< monte_carlo
+  std::vector<StudyExceedance> exceedances; ///< monte_carlo
+  StudySensitivity sensitivity;             ///< sensitivity
   StudyLimits limits;
   std::vector<StudyChange> overrides; ///< already in `gear`
   std::vector<StudyChange>
@@ -128,6 +134,7 @@ struct StudyFile {
 struct StudyVocabulary {
   std::span<const std::string_view> outputs; ///< of a forward result that may be objective or constraint
   std::span<const std::string_view> methods;
+  std::span<const std::string_view> sampled_outputs = {}; ///< of a row of monte_carlo or sensitivity
   /// Why an output that exists is not to be had in this study, and the remedy; may be empty.
   std::function<std::optional<std::string>(std::string_view output, const StudyFile&)> unavailable = {};
 };
@@ -138,6 +145,11 @@ StudyFile load_study(const std::string& path, bool reduced = false, const StudyV
 /// `name` stands in messages; the gear file is looked for beside it.
 StudyFile parse_study(std::string_view text, const std::string& name, bool reduced = false,
                       const StudyVocabulary& vocabulary = {});
+
+/// A study from what write_study() and write_gear(study.gear) have given: needs no other file, so that a study's folder can
+/// be read on another machine. `name`: of the file that holds both, for messages.
+StudyFile restore_study(std::string_view text, std::string_view gear_text, const std::string& name,
+                        const StudyVocabulary& vocabulary = {});
 
 /// Does this TOML text describe a study (and not a gear)? False for what is no TOML.
 bool is_study_text(std::string_view text);

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <hdf5.h>
 #include <hdf5_hl.h>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -84,13 +85,34 @@ void put_columns(hid_t set, const std::vector<TableColumn>& columns) {
   put_attribute(set, "units", units);
 }
 
+void put_rows(hid_t set, hid_t space, hsize_t first, hsize_t count, hsize_t columns,
+              const std::vector<double>& rows) {
+  const hsize_t start[2] = {first, 0}, size[2] = {count, columns};
+  Handle memory(H5Screate_simple(2, size, nullptr), H5Sclose);
+  demand(H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr));
+  demand(H5Dwrite(set, H5T_NATIVE_DOUBLE, memory.id(), space, H5P_DEFAULT, rows.data()));
+}
+
+/// Rows without a result hold NaN here, so that nobody takes their zeros for numbers.
 void put_outputs(hid_t file, const ResultsTable& results, const RowTable& table) {
-  const hsize_t shape[2] = {table.rows(), table.outputs()};
+  const hsize_t columns = table.outputs();
+  const hsize_t shape[2] = {table.rows(), columns};
   Handle space(H5Screate_simple(2, shape, nullptr), H5Sclose);
   Handle set(H5Dcreate2(file, "outputs", H5T_IEEE_F64LE, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
              H5Dclose);
-  demand(H5Dwrite(set.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, table.values().data()));
   put_columns(set.id(), results.outputs);
+  std::vector<double> rows;
+  for (hsize_t first = 0; columns > 0 && first < table.rows();) {
+    const hsize_t count = std::min<hsize_t>(16384, table.rows() - first);
+    const auto values = table.values().subspan(first * columns, count * columns);
+    rows.assign(values.begin(), values.end());
+    for (hsize_t k = 0; k < count; ++k)
+      if (table.status()[first + k] != row_ok)
+        std::fill_n(rows.begin() + static_cast<std::ptrdiff_t>(k * columns), columns,
+                    std::numeric_limits<double>::quiet_NaN());
+    put_rows(set.id(), space.id(), first, count, columns, rows);
+    first += count;
+  }
 }
 
 void put_inputs(hid_t file, const ResultsTable& results, const RowTable& table) {
@@ -105,10 +127,7 @@ void put_inputs(hid_t file, const ResultsTable& results, const RowTable& table) 
     const hsize_t count = std::min<hsize_t>(16384, table.rows() - first);
     rows.resize(count * columns);
     results.input_rows(first, count, rows);
-    const hsize_t start[2] = {first, 0}, size[2] = {count, columns};
-    Handle memory(H5Screate_simple(2, size, nullptr), H5Sclose);
-    demand(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start, nullptr, size, nullptr));
-    demand(H5Dwrite(set.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT, rows.data()));
+    put_rows(set.id(), space.id(), first, count, columns, rows);
     first += count;
   }
 }

@@ -3,7 +3,7 @@
 // opened for update.
 //
 //     /inputs      rows × inputs     attributes names, units
-//     /outputs     rows × outputs    attributes names, units
+//     /outputs     rows × outputs    attributes names, units; NaN in rows without a result
 //     /status      rows              0 ok, 255 missing, else an index into the attribute names
 //     /messages    text of failed rows, /messages_row their rows
 //     /timing      seconds of each block of rows (attribute block_rows); all that differs between runs

@@ -125,16 +125,6 @@ TEST_F(CommandLine, CheckOfAStudyPrintsTheWholeStudy) {
   EXPECT_NE(end.out.find("goal = \"minimise\""), std::string::npos);
 }
 
-TEST_F(CommandLine, CheckOfAStudyOfAnotherKindSaysThatThisVersionHasItNot) {
-  write("study.toml", "kind = \"sweep\"\n");
-  const End end = run("check study.toml");
-  EXPECT_EQ(end.code, 2);
-  EXPECT_EQ(
-      end.err,
-      "strainwave: study.toml:1:8: kind: the kind \"sweep\" is not available in this version, which runs "
-      "\"optimize\" and \"pareto\"\n");
-}
-
 TEST_F(CommandLine, MissingFileIsWrongInput) {
   const End end = run("check gear.toml");
   EXPECT_EQ(end.code, 2);

@@ -3,7 +3,8 @@
 #include "model/gear_file/gear_file.hpp"
 #include "studies/optimisation.hpp"
 #include "studies/optimisation_text.hpp"
-#include "studies/result_folder.hpp"
+#include "studies/journal/content_hash.hpp"
+#include "studies/results_file.hpp"
 #include "tests/studies/studies.hpp"
 
 #include <gtest/gtest.h>
@@ -118,7 +119,7 @@ TEST_F(CoarseStudy, FolderHoldsTheOptimisedGearAndEveryEvaluation) {
   ASSERT_TRUE(report.ok());
   const ResultFolder results(folder.path("out"));
   results.write_plan(report->study);
-  results.write_results(*report);
+  write_search_results(results, *report);
   const Gear gear = load_gear(folder.path("out/best.toml")).gear;
   EXPECT_EQ(canonical_bits(gear), canonical_bits(*report->best_gear));
   EXPECT_EQ(gear.flank_modification.flexspline.root_relief_um, report->inputs[0].best);
@@ -135,7 +136,7 @@ TEST_F(CoarseStudy, FolderHoldsTheOptimisedGearAndEveryEvaluation) {
   H5Fclose(file);
 
   std::ifstream plan(folder.path("out/plan.json"));
-  EXPECT_EQ(nlohmann::json::parse(plan)["hash"], plan_hash(report->study));
+  EXPECT_EQ(nlohmann::json::parse(plan)["hash"], hash_text(plan_hash(report->study)));
 }
 
 TEST_F(CoarseStudy, JsonHasTheKeysOfTheInterface) {

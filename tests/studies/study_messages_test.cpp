@@ -17,9 +17,6 @@ struct Golden {
 
 const std::vector<Golden>& goldens() {
   static const std::vector<Golden> all{
-      {"kind of another version", "\"optimize\"", "\"monte_carlo\"",
-       "study.toml:1:8: kind: the kind \"monte_carlo\" is not available in this version, which runs "
-       "\"optimize\" and \"pareto\""},
       {"misspelt kind", "\"optimize\"", "\"optimise\"",
        "study.toml:1:8: kind: must be optimize, pareto, sweep, monte_carlo or sensitivity, is \"optimise\"; "
        "did you mean "

@@ -1,0 +1,55 @@
+// `study run` of kind "optimize" and "pareto".
+
+#include "app/output.hpp"
+#include "app/progress_line.hpp"
+#include "app/stop_request.hpp"
+#include "app/study.hpp"
+#include "studies/optimisation_text.hpp"
+#include "studies/results_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace strainwave::app {
+
+namespace {
+
+ExitCode exit_code(Verdict verdict) {
+  switch (verdict) {
+  case Verdict::stopped:
+    return ExitCode::stopped;
+  case Verdict::infeasible:
+    return ExitCode::no_result;
+  default:
+    return ExitCode::done;
+  }
+}
+
+} // namespace
+
+ExitCode run_search(const StudyOptions& options, const StudyFile& study, const ResultFolder& folder) {
+  const StopRequest stop(options.time_limit_s);
+  const auto responses = gear_responses();
+  const Response& objective = responses[*find_response(responses, study.objective.output)];
+  std::optional<SearchLine> line(std::in_place, std::string(objective.name), std::string(objective.unit));
+  const auto report_now = run_optimisation(
+      study, {.threads = options.threads,
+              .disk_cache = !options.no_cache,
+              .stop = stop,
+              .progress = [&](const SearchProgress& progress) { line->show(progress, stop.seconds_left()); },
+              .warn = [](const std::string& sentence) { report(sentence); }});
+  line.reset();
+  if (!report_now) {
+    report(report_now.failure().message);
+    return ExitCode::no_result;
+  }
+  if (!write_search_results(folder, *report_now))
+    report("the folder keeps the finished result of an earlier run; this one was stopped early");
+  const std::string name = folder.path().string();
+  print(options.json ? optimisation_json(*report_now, name).dump(2) + "\n"
+                     : optimisation_table(*report_now, name));
+  if (report_now->verdict != Verdict::converged)
+    report(std::string(verdict_name(report_now->verdict)) + ": " + report_now->message);
+  return exit_code(report_now->verdict);
+}
+
+} // namespace strainwave::app
