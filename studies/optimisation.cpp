@@ -2,6 +2,7 @@
 
 #include "optimize/pareto.hpp"
 #include "studies/optimisation_bound.hpp"
+#include "studies/optimum_variants.hpp"
 
 #include <fmt/format.h>
 
@@ -234,6 +235,10 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
   } else {
     report_best(report, design, optimise(problem, settings, fresh, monitor).judgement);
     report_bound(report, design, loads, forward);
+    if (report.best_gear && !(options.stop && options.stop())) {
+      ForwardModel other_models(forward);
+      report.variants = optimum_variants(report.study.gear, *report.best_gear, loads, other_models);
+    }
   }
   report.counts = store.counts();
   report.certificate_worst = store.worst_certificate();

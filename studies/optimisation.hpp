@@ -59,6 +59,12 @@ struct BoundReport {
   std::string rotation_from; ///< what allows the rotation: "the limit" or "the optimum's own"
 };
 
+/// The unmodified gear and the optimum under a changed model (optimum_variants.hpp).
+struct ModelVariant {
+  std::string name;
+  Evaluation baseline, best;
+};
+
 struct OptimisationReport {
   StudyFile study;
   std::string method;
@@ -71,9 +77,10 @@ struct OptimisationReport {
   std::optional<Evaluation> best; ///< by a fresh evaluation; nothing if no design could be evaluated
   std::optional<Gear> best_gear;  ///< with the study's loads and phases in its [load]
   std::vector<LimitReport> limits;
-  std::optional<BoundReport> bound; ///< least peak_force_n with torques only
-  std::string no_bound;             ///< why there is none, where one could be expected
-  std::vector<FrontPoint> front;    ///< pareto; `best` is its first design then
+  std::optional<BoundReport> bound;   ///< least peak_force_n with torques only
+  std::string no_bound;               ///< why there is none, where one could be expected
+  std::vector<ModelVariant> variants; ///< optimize; the study's own model first
+  std::vector<FrontPoint> front;      ///< pareto; `best` is its first design then
   Certificate certificate_worst;
   std::vector<StoredPoint> points; ///< all evaluations, ascending in x, so that no number of threads shows
 };

@@ -89,6 +89,40 @@ Json front_json(const OptimisationReport& report) {
   return front;
 }
 
+/// What the optimum is worth in other models: objective, rotation and least backlash, unmodified → optimised.
+void variant_table(const OptimisationReport& report, Out out) {
+  const auto responses = gear_responses();
+  const auto value = [&](const Evaluation& e, std::string_view name) {
+    return e.ok ? number_text(e.values[*find_response(responses, name)]) : std::string("–");
+  };
+  const std::string& aim = report.study.objective.output;
+  fmt::format_to(out, "\n  {:<22} {:>30} {:>30} {:>24}\n", "The optimum in other models", aim, "rotation_rad",
+                 "min_backlash_um");
+  for (const ModelVariant& v : report.variants) {
+    const auto pair = [&](std::string_view name) {
+      return fmt::format("{} → {}", value(v.baseline, name), value(v.best, name));
+    };
+    const auto index = *find_response(responses, aim);
+    const std::string change =
+        v.baseline.ok && v.best.ok ? change_text(v.baseline.values[index], v.best.values[index]) : "";
+    fmt::format_to(out, "  {:<22} {:>22} {:>9} {:>28} {:>24}\n", v.name, pair(aim), change,
+                   pair("rotation_rad"), pair("min_backlash_um"));
+    for (const Evaluation* e : {&v.baseline, &v.best})
+      if (!e->ok)
+        fmt::format_to(out, "    {}: {}\n", e == &v.best ? "optimum" : "unmodified", e->message);
+  }
+}
+
+Json variants_json(const OptimisationReport& report) {
+  Json all = Json::array();
+  const auto outputs = [](const Evaluation& e) {
+    return e.ok ? outputs_json(e) : Json{{"status", e.status}, {"message", e.message}};
+  };
+  for (const ModelVariant& v : report.variants)
+    all.push_back({{"model", v.name}, {"baseline", outputs(v.baseline)}, {"best", outputs(v.best)}});
+  return all;
+}
+
 } // namespace
 
 std::string optimisation_table(const OptimisationReport& report, const std::string& folder) {
@@ -136,6 +170,8 @@ std::string optimisation_table(const OptimisationReport& report, const std::stri
     }
     fmt::format_to(out, "\n");
   }
+  if (!report.variants.empty())
+    variant_table(report, out);
   if (!report.front.empty())
     front_table(report, out);
   fmt::format_to(out, "\nVerdict      {}: {}\n", verdict_name(report.verdict), report.message);
@@ -187,6 +223,8 @@ Json optimisation_json(const OptimisationReport& report, const std::string& fold
     limits.push_back(std::move(limit));
   }
   json["limits"] = std::move(limits);
+  if (!report.variants.empty())
+    json["other_models"] = variants_json(report);
   if (report.bound) {
     const GearBound& bound = report.bound->bound;
     json["bound"] = {{"peak_force_n", bound.peak_force_n},

@@ -77,6 +77,23 @@ TEST_F(CoarseStudy, LowersThePeakForceAndKeepsTheStiffness) {
   EXPECT_TRUE(report->certificate_worst.holds());
 }
 
+TEST_F(CoarseStudy, ShowsTheOptimumInOtherModelsAndBesideItsBound) {
+  const auto report = run(coarse_study);
+  ASSERT_TRUE(report.ok());
+  ASSERT_EQ(report->variants.size(), 4u);
+  const auto& own = report->variants.front();
+  EXPECT_EQ(value(own.best, "peak_force_n"), value(*report->best, "peak_force_n"));
+  EXPECT_EQ(value(own.baseline, "peak_force_n"), value(report->baseline, "peak_force_n"));
+  // a wall that may not lift off is stiffer, and more phases cannot lower the worst force
+  EXPECT_LT(value(report->variants[1].best, "rotation_rad"), value(own.best, "rotation_rad"));
+  EXPECT_EQ(report->variants[2].name, "assembled gaps");
+  EXPECT_GE(value(report->variants[3].best, "peak_force_n"), value(own.best, "peak_force_n"));
+  ASSERT_TRUE(report->bound) << report->no_bound;
+  EXPECT_LT(report->bound->bound.peak_force_n, value(*report->best, "peak_force_n"));
+  EXPECT_EQ(report->bound->bound.rotation_rad, value(*report->best, "rotation_rad")); // no limit on it
+  EXPECT_GT(report->bound->bound.peak_force_n, 10.0); // 7 N·m over every tooth within reach of a lobe: some 8 N
+}
+
 TEST_F(CoarseStudy, ThreadsDoNotShowInTheResult) {
   const StudyFile study =
       folder.read(with(coarse_study, "budget = 160", "budget = 120\nstarts = 3"), false, study_vocabulary());
