@@ -1,6 +1,7 @@
 #include "studies/optimisation.hpp"
 
 #include "optimize/pareto.hpp"
+#include "studies/optimisation_bound.hpp"
 
 #include <fmt/format.h>
 
@@ -232,6 +233,7 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
     report_front(report, design, front);
   } else {
     report_best(report, design, optimise(problem, settings, fresh, monitor).judgement);
+    report_bound(report, design, loads, forward);
   }
   report.counts = store.counts();
   report.certificate_worst = store.worst_certificate();

@@ -2,6 +2,7 @@
 // Runs a study of kind "optimize" or "pareto": from the file to judged optima beside the unmodified gear.
 
 #include "optimize/evaluation_store.hpp"
+#include "optimize/gear_bound.hpp"
 #include "optimize/gear_evaluator.hpp"
 #include "optimize/optimise.hpp"
 #include "studies/study_file.hpp"
@@ -51,6 +52,13 @@ struct FailureCount {
   std::string example; ///< the sentence of one of them
 };
 
+/// What no clearance of single teeth could beat, beside the optimum (optimize/gear_bound.hpp).
+struct BoundReport {
+  GearBound bound;           ///< of the load whose bound lies nearest below its optimum
+  double optimum_n = 0.0;    ///< peak force of that load
+  std::string rotation_from; ///< what allows the rotation: "the limit" or "the optimum's own"
+};
+
 struct OptimisationReport {
   StudyFile study;
   std::string method;
@@ -63,7 +71,9 @@ struct OptimisationReport {
   std::optional<Evaluation> best; ///< by a fresh evaluation; nothing if no design could be evaluated
   std::optional<Gear> best_gear;  ///< with the study's loads and phases in its [load]
   std::vector<LimitReport> limits;
-  std::vector<FrontPoint> front; ///< pareto; `best` is its first design then
+  std::optional<BoundReport> bound; ///< least peak_force_n with torques only
+  std::string no_bound;             ///< why there is none, where one could be expected
+  std::vector<FrontPoint> front;    ///< pareto; `best` is its first design then
   Certificate certificate_worst;
   std::vector<StoredPoint> points; ///< all evaluations, ascending in x, so that no number of threads shows
 };

@@ -1,5 +1,7 @@
 #include "studies/optimisation_text.hpp"
 
+#include "studies/optimisation_bound.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -137,6 +139,8 @@ std::string optimisation_table(const OptimisationReport& report, const std::stri
   if (!report.front.empty())
     front_table(report, out);
   fmt::format_to(out, "\nVerdict      {}: {}\n", verdict_name(report.verdict), report.message);
+  if (const std::string bound = bound_sentence(report); !bound.empty())
+    fmt::format_to(out, "Bound        {}\n", bound);
   fmt::format_to(out, "Evaluations  {} done, {} reused, {} failed; {:.1f} s\n", report.counts.done,
                  report.counts.reused, report.counts.failed, report.seconds);
   for (const FailureCount& failure : count_failures(report.points))
@@ -183,6 +187,16 @@ Json optimisation_json(const OptimisationReport& report, const std::string& fold
     limits.push_back(std::move(limit));
   }
   json["limits"] = std::move(limits);
+  if (report.bound) {
+    const GearBound& bound = report.bound->bound;
+    json["bound"] = {{"peak_force_n", bound.peak_force_n},
+                     {"rotation_rad", bound.rotation_rad},
+                     {"torque_nm", bound.torque_nm},
+                     {"phase", bound.phase},
+                     {"tooth", bound.tooth},
+                     {"force_n", bound.force_n},
+                     {"optimum_ratio", report.bound->optimum_n / bound.peak_force_n}};
+  }
   if (pareto)
     json["front"] = front_json(report);
   json["certificate_worst"] = certificate_json(report.certificate_worst);

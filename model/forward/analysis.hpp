@@ -6,6 +6,7 @@
 #include "model/forward/flank_points.hpp"
 #include "model/forward/forward.hpp"
 #include "model/forward/load_cases.hpp"
+#include "model/forward/phase_problem.hpp"
 #include "model/forward/stage_memory.hpp"
 #include "model/tooth/backlash.hpp"
 
@@ -66,6 +67,7 @@ public:
 
   ForwardResult run();
   Outcome<ContactStates> contact_states();
+  Outcome<std::vector<PhaseProblem>> phase_problems(bool with_load);
 
 private:
   Outcome<ContactStates> unguarded_contact_states();

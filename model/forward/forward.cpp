@@ -87,6 +87,34 @@ Outcome<ContactStates> Analysis::unguarded_contact_states() {
   return result;
 }
 
+Outcome<std::vector<PhaseProblem>> Analysis::phase_problems(bool with_load) {
+  try {
+    if (auto failure = stages())
+      return *failure;
+    std::vector<PhaseProblem> problems;
+    for (int j = 0; j < gear_.load.phases; ++j) {
+      const double phase = static_cast<double>(j) / gear_.load.phases;
+      auto points = loaded_points(phase);
+      if (!points)
+        return points.failure();
+      const auto assembled = assembly(phase);
+      if (!assembled)
+        return assembled.failure();
+      problems.push_back({phase, std::move(points).value(), {}});
+      if (!with_load)
+        continue;
+      const RingCompliance& ring = ring_->compliance;
+      PhaseProblem& problem = problems.back();
+      problem.load = gear_.contact.fidelity == Fidelity::linear
+                         ? linear_problem(ring, **assembled, problem.points)
+                         : unilateral_problem(ring, **assembled, problem.points);
+    }
+    return problems;
+  } catch (const NotPositiveDefinite& error) {
+    return ill_conditioned(error);
+  }
+}
+
 Failure Analysis::ill_conditioned(const NotPositiveDefinite& error) const {
   return {Status::ill_conditioned,
           fmt::format(
@@ -249,6 +277,14 @@ ForwardModel::~ForwardModel() = default;
 
 ForwardResult ForwardModel::analyze(const Gear& gear, Want want) {
   return Analysis(*state_, gear, want).run();
+}
+
+Outcome<std::vector<PhaseProblem>> ForwardModel::phase_problems(const Gear& gear) {
+  return Analysis(*state_, gear, Want::compliance).phase_problems(true);
+}
+
+Outcome<std::vector<PhaseProblem>> ForwardModel::phase_points(const Gear& gear) {
+  return Analysis(*state_, gear, Want::compliance).phase_problems(false);
 }
 
 Outcome<ContactStates> ForwardModel::contact_states(const Gear& gear) {

@@ -13,10 +13,12 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace strainwave {
 
 struct ContactStates; // contact_forces.hpp
+struct PhaseProblem;  // phase_problem.hpp
 
 struct ForwardOptions {
   bool disk_cache = true; ///< unit responses on disk, in the XDG cache directory
@@ -40,6 +42,11 @@ public:
   /// The contact forces of the assembled cup and of every load of the gear, at phase 0 in the drive direction; reuses
   /// what analyses have computed.
   Outcome<ContactStates> contact_states(const Gear& gear);
+
+  /// The contact problem of all drive points at every phase of the gear's [load].
+  Outcome<std::vector<PhaseProblem>> phase_problems(const Gear& gear);
+  /// Only its points; `load` stays empty.
+  Outcome<std::vector<PhaseProblem>> phase_points(const Gear& gear);
 
   struct State; ///< what analyses share; of forward.cpp only
 

@@ -2,6 +2,7 @@
 // point per tooth at tip height, backlash of the exact two-disc curve, linearised disc gap.
 
 #include "model/contact/load_problem.hpp"
+#include "model/contact/tangent_compliance.hpp"
 
 #include "tests/model/contact/reference_cup.hpp"
 
@@ -140,6 +141,34 @@ TEST(LagrangeWeights, ReproduceCubicsAndHitNodesExactly) {
     EXPECT_NEAR(cubic, std::pow(x - 24.0, 3) - 2 * (x - 24.0), 1e-12);
   }
   EXPECT_EQ(lagrange_weights(nodes, 25.5).size(), 1U);
+}
+
+TEST_F(SeedGearOnReferenceCup, TangentComplianceGivesTheGapsOfNeighbouringLoads) {
+  const LoadProblem load = unilateral_problem(ring, assembled, teeth);
+  const Eigen::Index n = load.point_count;
+  const auto at = [&](double torque_nm) {
+    return solver.solve_torque(load.problem, 1e3 * torque_nm / 2).value();
+  };
+  const ContactState here = at(7.0);
+  const TangentCompliance tangent = tangent_compliance(load, here.force.head(n), solver);
+  EXPECT_TRUE(std::equal(tangent.wall.begin(), tangent.wall.end(), here.active.begin() + n));
+  int same_wall = 0;
+  for (const double torque_nm : {6.9999, 7.0, 7.0001}) {
+    const ContactState state = at(torque_nm);
+    same_wall += std::equal(tangent.wall.begin(), tangent.wall.end(), state.active.begin() + n);
+    const Eigen::VectorXd gap =
+        tangent.gap_mm + tangent.d * state.force.head(n) - state.rotation * tangent.lever_mm;
+    EXPECT_LT((gap - state.gap.head(n)).cwiseAbs().maxCoeff(), 1e-12) << torque_nm; // mm; gaps are of 1e-2
+  }
+  EXPECT_EQ(same_wall, 3); // else the law above is not bound to hold
+}
+
+TEST_F(SeedGearOnReferenceCup, TangentComplianceWithTheWallHeldIsTheFrozenOne) {
+  const LoadProblem load = linear_problem(ring, assembled, teeth);
+  const TangentCompliance tangent =
+      tangent_compliance(load, Eigen::VectorXd::Constant(load.point_count, 3.0), solver);
+  EXPECT_EQ(tangent.d, frozen_compliance(ring, assembled, load.points));
+  EXPECT_TRUE(tangent.wall.empty());
 }
 
 } // namespace
