@@ -34,6 +34,7 @@ ExitCode run_search(const StudyOptions& options, const StudyFile& study, const R
   const auto report_now = run_optimisation(
       study, {.threads = options.threads,
               .disk_cache = !options.no_cache,
+              .journal = folder.journal(),
               .stop = stop,
               .progress = [&](const SearchProgress& progress) { line->show(progress, stop.seconds_left()); },
               .warn = [](const std::string& sentence) { report(sentence); }});
@@ -42,6 +43,8 @@ ExitCode run_search(const StudyOptions& options, const StudyFile& study, const R
     report(report_now.failure().message);
     return ExitCode::no_result;
   }
+  if (!report_now->damage.empty())
+    report(report_now->damage);
   if (!write_search_results(folder, *report_now))
     report("the folder keeps the finished result of an earlier run; this one was stopped early");
   const std::string name = folder.path().string();
@@ -49,6 +52,10 @@ ExitCode run_search(const StudyOptions& options, const StudyFile& study, const R
                      : optimisation_table(*report_now, name));
   if (report_now->verdict != Verdict::converged)
     report(std::string(verdict_name(report_now->verdict)) + ": " + report_now->message);
+  if (!report_now->too_many_failed.empty() && report_now->verdict != Verdict::stopped) {
+    report(report_now->too_many_failed);
+    return ExitCode::no_result;
+  }
   return exit_code(report_now->verdict);
 }
 

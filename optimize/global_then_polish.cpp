@@ -13,6 +13,11 @@ namespace strainwave {
 
 namespace {
 
+/// Of a budget; a survey may have asked for one point more than its small share.
+std::size_t left_of(std::size_t budget, std::size_t asked) {
+  return budget > asked ? budget - asked : 0;
+}
+
 /// Evenly spread points, the study's own start first.
 SearchResult spread(const Problem& problem, const SearchSettings& settings, Monitor& monitor) {
   Recorder recorder(problem, settings.budget, monitor);
@@ -71,7 +76,7 @@ SearchResult polish(const Problem& problem, const SearchPoint& from, const Searc
   if (!found.best || better(from, *found.best))
     found.best = from;
   if (found.end != SearchEnd::stopped)
-    (void)confirm(problem, found, settings, budget - found.asked, monitor);
+    (void)confirm(problem, found, settings, left_of(budget, found.asked), monitor);
   return found;
 }
 
@@ -108,7 +113,7 @@ SearchResult global_then_polish(const Problem& problem, const OptimiseSettings& 
       0.3 * std::pow(static_cast<double>(found.seen.size() + 1), -1.0 / static_cast<double>(n));
   const auto valleys = best_apart(problem, found.seen, std::max<std::size_t>(1, settings.starts), separation);
   if (!valleys.empty())
-    add(found, polish_all(problem, valleys, settings, budget - found.asked, monitor));
+    add(found, polish_all(problem, valleys, settings, left_of(budget, found.asked), monitor));
   return found;
 }
 

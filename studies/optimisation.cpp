@@ -3,6 +3,9 @@
 #include "optimize/pareto.hpp"
 #include "studies/optimisation_bound.hpp"
 #include "studies/optimum_variants.hpp"
+#include "studies/result_folder.hpp"
+#include "studies/results_file.hpp"
+#include "studies/search_journal.hpp"
 
 #include <fmt/format.h>
 
@@ -117,6 +120,15 @@ void report_front(OptimisationReport& report, const DesignSpace& design,
     report.message = "every point: " + report.message;
 }
 
+void note_failures(OptimisationReport& report) {
+  const double share = report.study.limits.failure_share;
+  const auto points = static_cast<double>(report.points.size());
+  if (static_cast<double>(report.counts.failed) > share * points)
+    report.too_many_failed =
+        fmt::format("{} of {} evaluations failed, more than the share of {} that the study allows",
+                    report.counts.failed, report.points.size(), shortest(share));
+}
+
 } // namespace
 
 std::vector<FailureCount> count_failures(const std::vector<StoredPoint>& points) {
@@ -215,6 +227,11 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
     return *fault;
 
   EvaluationStore store(model);
+  std::optional<SearchJournal> journal;
+  if (!options.journal.empty()) {
+    journal.emplace(options.journal, plan_hash(study), search_model_hash(), store);
+    report.damage = journal->damage();
+  }
   const Objective objective{study.objective.output, study.objective.goal == Goal::maximise};
   const Problem problem(design, store, objective, constraints_of(study), report.baseline);
   report.limits = limits_of(study, problem);
@@ -240,11 +257,14 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
       report.variants = optimum_variants(report.study.gear, *report.best_gear, loads, other_models);
     }
   }
+  if (journal)
+    journal->sync();
   report.counts = store.counts();
   report.certificate_worst = store.worst_certificate();
   report.points = store.points();
   std::stable_sort(report.points.begin(), report.points.end(),
                    [](const StoredPoint& a, const StoredPoint& b) { return a.x < b.x; });
+  note_failures(report);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return report;
 }

@@ -7,6 +7,7 @@
 #include "optimize/optimise.hpp"
 #include "studies/study_file.hpp"
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@ namespace strainwave {
 struct RunOptions {
   int threads = 0; ///< 0: all cores
   bool disk_cache = true;
+  std::filesystem::path journal = {}; ///< kept there and answered from there; empty: nothing is kept
   std::function<bool()> stop;
   std::function<void(const SearchProgress&)> progress;
   std::function<void(const std::string&)> warn;
@@ -82,6 +84,8 @@ struct OptimisationReport {
   std::vector<ModelVariant> variants; ///< optimize; the study's own model first
   std::vector<FrontPoint> front;      ///< pareto; `best` is its first design then
   Certificate certificate_worst;
+  std::string damage; ///< tail of the journal that was cut; empty: none
+  std::string too_many_failed; ///< one sentence where more evaluations failed than the study allows
   std::vector<StoredPoint> points; ///< all evaluations, ascending in x, so that no number of threads shows
 };
 

@@ -20,6 +20,8 @@ StudyFile StudyReader::read(const toml::table& root) {
   read_kind(root);
   for (const auto& [key, node] : root)
     read_top(std::string(key.str()), key, node);
+  if (!given_.contains("limits.failure_share"))
+    study_.limits.failure_share = default_failure_share(study_.kind);
   demand(study_, "", Place{1, 1});
   demand_headings(root);
   read_gear(root);
@@ -31,6 +33,11 @@ StudyFile StudyReader::read(const toml::table& root) {
   if (!faults_.empty())
     throw FileError(study_.file, std::move(faults_));
   return std::move(study_);
+}
+
+/// A search looks for the edge of what works; a sample that fails is a hole in a table.
+double default_failure_share(StudyKind kind) {
+  return kind == StudyKind::optimize || kind == StudyKind::pareto ? 0.5 : 0.01;
 }
 
 /// What a heading means depends on the kind, so it comes first; what is wrong with it is said by read_top().

@@ -98,6 +98,9 @@ struct StudyLimits {
   double failure_share = 0.01; ///< of the evaluations that may fail
 };
 
+/// Where a file does not say: 0.5 of a search, 0.01 of rows.
+double default_failure_share(StudyKind kind);
+
 /// One line of [override] or [reduced].
 struct StudyChange {
   std::string path;

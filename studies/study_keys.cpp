@@ -87,7 +87,7 @@ std::span<const StudyKey<StudyMethod>> study_keys(const StudyMethod&) {
 std::span<const StudyKey<StudyLimits>> study_keys(const StudyLimits&) {
   static const std::array keys{
       row<&StudyLimits::failure_share>("failure_share", "", within(0.0, 1.0),
-                                       "share of evaluations that may fail"),
+                                       "share of evaluations that may fail; more: exit code 3"),
   };
   return keys;
 }

@@ -3,6 +3,7 @@
 #include "studies/journal/content_hash.hpp"
 #include "studies/journal/merge.hpp"
 #include "studies/sampled_run.hpp"
+#include "studies/search_journal.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -47,14 +48,13 @@ private:
     journal.running = is_locked(path);
     const std::uint64_t plan = plan_hash(status_.study);
     RowBlock block;
+    SearchJournalCounts points;
     try {
       const JournalScan scan = scan_journal(
           path.string(),
           [&](RecordKind kind, std::span<const std::byte> payload) {
-            if (kind == RecordKind::point) {
-              ++journal.done, ++status_.done;
-              return;
-            }
+            if (kind == RecordKind::point)
+              return count_point(payload, points);
             decode_block(payload, block);
             journal.done += block.rows;
             for (const std::uint8_t s : block.status)
@@ -82,6 +82,10 @@ private:
     } catch (const JournalError& error) {
       journal.note = error.what();
     }
+    journal.done += points.points;
+    journal.failed += points.failed;
+    status_.done += points.points;
+    status_.failed += points.failed;
     status_.journals.push_back(std::move(journal));
   }
 

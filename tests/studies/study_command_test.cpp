@@ -65,15 +65,18 @@ TEST_F(StudyCommand, TimeLimitStopsWith75) {
   EXPECT_TRUE(std::filesystem::exists(folder / "seed_optimize-result/plan.json"));
 }
 
-TEST_F(StudyCommand, FolderOfAnotherStudyAndFinishedResultsAreKept) {
-  const std::string first = "PROGRAM study run " + gallery + "seed_relief_only.toml --reduced --out kept";
-  ASSERT_EQ(shell(first).code, 0);
+TEST_F(StudyCommand, FolderOfAnotherStudyIsRefusedAndFinishedResultsAreAnsweredFromIt) {
+  const std::string first = "PROGRAM study run " + gallery + "seed_relief_only.toml --reduced --out kept --json";
+  const End whole = shell(first);
+  ASSERT_EQ(whole.code, 0);
   const std::string best = file_text((folder / "kept/best.toml").string());
   const End other = shell("PROGRAM study run " + gallery + "seed_optimize.toml --reduced --out kept");
   EXPECT_EQ(other.code, 2);
   EXPECT_NE(other.err.find("another study"), std::string::npos) << other.err;
-  const End stopped = shell(first + " --time-limit 0.05");
-  EXPECT_EQ(stopped.code, 75) << stopped.err;
+  const End again = shell(first);
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(nlohmann::json::parse(again.out)["evaluations"]["done"], 0);
+  EXPECT_EQ(nlohmann::json::parse(again.out)["best"], nlohmann::json::parse(whole.out)["best"]);
   EXPECT_EQ(file_text((folder / "kept/best.toml").string()), best);
 }
 

@@ -3,6 +3,7 @@
 
 #include "tests/model/gear_file/files.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
