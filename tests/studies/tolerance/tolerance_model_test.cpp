@@ -183,7 +183,7 @@ TEST(ToleranceModel, WidthOfSpacesIsAProfileShift) {
 }
 
 // Uniform wear w turns the involute by w / r_b: that of the space towards larger angles, that of the tooth backwards. Its
-// ends go along the normal with it, to a radius that differs by some 0.3 w, where the gap differs by up to 0.01 w.
+// ends go along the normal with it, to a radius that differs by some 0.3 w, where the gap of the teeth that can carry load differs by up to 0.01 w.
 TEST(ToleranceModel, WearTurnsTheDriveFlank) {
   for (const Member member : {Member::flexspline, Member::circular_spline}) {
     const ToleranceModel model = model_of({{.kind = ToleranceKind::wear, .member = member}});
@@ -203,7 +203,7 @@ TEST(ToleranceModel, WearTurnsTheDriveFlank) {
             flanks().drive(moved(place.pose.value, {-back * std::sin(n), back * std::cos(n), -wear / base}),
                            place.space_angle_rad);
       }
-      if (exact.place == nominal.place) {
+      if (exact.place == nominal.place && nominal.backlash_mm < 0.03) { // those that can carry load
         EXPECT_NEAR(c[i], exact.backlash_mm, 0.01 * wear) << i;
       }
     }
