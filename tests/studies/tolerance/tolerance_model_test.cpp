@@ -203,28 +203,32 @@ TEST(ToleranceModel, WearTurnsTheDriveFlank) {
             flanks().drive(moved(place.pose.value, {-back * std::sin(n), back * std::cos(n), -wear / base}),
                            place.space_angle_rad);
       }
-      if (exact.place == nominal.place && nominal.backlash_mm < 0.03) { // those that can carry load
+      if (exact.place == nominal.place && nominal.backlash_mm < 0.02) { // those that can carry load
         EXPECT_NEAR(c[i], exact.backlash_mm, 0.01 * wear) << i;
       }
     }
   }
 }
 
-// A profile slope that is nothing but removal towards the tip, taken as the gear key that says the same.
+// A profile slope in the words of gear keys: −a (h − ½) = a (1 − h) − a/2, a slope below 0 and less of a constant.
 TEST(ToleranceModel, ProfileSlopeIsASlopeAndAnOffset) {
-  expect_second_order(
-      {.kind = ToleranceKind::profile_slope}, [](double a) { return std::vector<double>{a}; },
-      [](const ToleranceModel& m, std::size_t i, double a) {
-        Gear other = gear(); // removal −a (h − ½) = a (1 − h) − a/2: slope below 0, and an offset against it
-        other.flank_modification.flexspline.slope_um = -1e3 * a;
-        const double base = r1 * std::cos(20.0 * pi / 180.0);
-        const double arm = gear().flexspline.neutral_radius_mm, turn = 0.5 * a / base;
-        const Pose& pose = m.place(i).pose.value;
-        const double n = pose.normal_rotation_rad;
-        return FlankPair::make(other).value().drive(
-            moved(pose, {-arm * turn * std::sin(n), arm * turn * std::cos(n), turn}),
-            m.place(i).space_angle_rad);
-      });
+  Gear worn = gear();
+  worn.flank_modification.flexspline.spline_um = {20.0};
+  const ToleranceModel model =
+      ToleranceModel::make(worn, curve(), {{.kind = ToleranceKind::profile_slope}}).value();
+  for (const double a : {0.010, 0.001}) {
+    const auto c = backlash_of(model, std::vector{a});
+    Gear other = worn;
+    other.flank_modification.flexspline.slope_um = -1e3 * a;
+    other.flank_modification.flexspline.spline_um = {20.0 - 0.5e3 * a};
+    const FlankPair pair = FlankPair::make(other).value();
+    for (std::size_t i = 0; i < model.teeth(); ++i) {
+      const ToothBacklash exact = pair.drive(model.place(i).pose.value, model.place(i).space_angle_rad);
+      if (exact.place == model.nominal(i).place) {
+        EXPECT_NEAR(c[i], exact.backlash_mm, a * a) << i; // second order
+      }
+    }
+  }
 }
 
 // Material (f/2) cos 2πh at the place of contact, along the normal: an arc R/r_b as long.
@@ -235,17 +239,19 @@ TEST(ToleranceModel, ProfileFormActsByItsHeightAtTheContact) {
   const double base = r2 * std::cos(20.0 * pi / 180.0);
   for (std::size_t i = 0; i < model.teeth(); ++i) {
     const ToothBacklash& nominal = model.nominal(i);
+    if (nominal.backlash_mm > 0.02)
+      continue; // edges move along the normal too, which tells where the gap is steep
     const double h = (nominal.contact_radius_mm - 14.5) / (14.86 - 14.5);
     const double added = 0.001 * std::cos(2.0 * pi * h);
-    EXPECT_NEAR(c[i] - nominal.backlash_mm, -added * nominal.contact_radius_mm / base, 1e-8) << i;
+    EXPECT_NEAR(c[i] - nominal.backlash_mm, -added * nominal.contact_radius_mm / base, 0.01 * 0.001) << i;
   }
 }
 
 TEST(ToleranceModel, GearKeysFollowTheDirectGeometry) {
   expect_second_order(
       {.kind = ToleranceKind::gear_key, .path = "circular_spline.profile_shift"},
-      [](double a) { return std::vector<double>{2.19 + a}; },
-      [](const ToleranceModel& m, std::size_t i, double a) { return with_shift(m, i, 0.0, a); });
+      [](double a) { return std::vector<double>{2.19 + 10.0 * a}; },
+      [](const ToleranceModel& m, std::size_t i, double a) { return with_shift(m, i, 0.0, 10.0 * a); });
   const auto cup = ToleranceModel::make(
       gear(), curve(), {{.kind = ToleranceKind::gear_key, .path = "flexspline.rim_thickness_mm"}});
   ASSERT_FALSE(cup.ok());
