@@ -128,12 +128,22 @@ Outcome<NominalMesh> nominal_mesh(ForwardModel& model, const Gear& gear, const F
   return mesh;
 }
 
-Outcome<LoadTangent> nominal_load(const NominalMesh& mesh, double torque_nm) {
-  const double torque = 1e3 * torque_nm;
+namespace {
+
+Outcome<ContactState> solved(ContactSolver& solver, const ContactProblem& problem, double value, Control control,
+                             const ActiveSet& warm) {
+  if (control == Control::torque)
+    return solver.solve_torque(problem, 1e3 * value, warm);
+  return solver.solve_at(problem, value, warm);
+}
+
+} // namespace
+
+Outcome<LoadTangent> nominal_load(const NominalMesh& mesh, double value, Control control) {
   ContactSolver solver;
   if (mesh.gear.contact.fidelity == Fidelity::linear) {
     LoadProblem load = linear_problem(*mesh.ring, mesh.assembled, mesh.teeth);
-    auto state = solver.solve_torque(load.problem, torque);
+    auto state = solved(solver, load.problem, value, control, {});
     if (!state)
       return state.failure();
     return LoadTangent{std::move(load.problem), std::move(state).value(), {}};
@@ -149,13 +159,13 @@ Outcome<LoadTangent> nominal_load(const NominalMesh& mesh, double torque_nm) {
   const LoadProblem load = unilateral_problem(*mesh.ring, mesh.assembled, mesh.teeth);
   ActiveSet warm(mesh.teeth.size(), 0);
   warm.insert(warm.end(), mesh.assembled.active.begin(), mesh.assembled.active.end());
-  auto state = solver.solve_torque(load.problem, torque, warm);
+  auto state = solved(solver, load.problem, value, control, warm);
   if (!state)
     return state.failure();
   if (mesh.gear.contact.disc_gap == DiscGap::linearised)
     return linear_tangent(mesh.assembled, load, *state, changed);
   auto exact =
-      correct_to_exact_gap(*mesh.ring, mesh.surface, mesh.assembled, load, *state, Control::torque, solver);
+      correct_to_exact_gap(*mesh.ring, mesh.surface, mesh.assembled, load, *state, control, solver);
   if (!exact)
     return exact.failure();
   return tangent_at(*mesh.ring, mesh.surface, mesh.assembled, load, *exact, changed);

@@ -36,8 +36,9 @@ struct NominalMesh {
 /// Failures: those of the forward model, not_available for more than one contact point per tooth.
 Outcome<NominalMesh> nominal_mesh(ForwardModel& model, const Gear& gear, const ForwardOptions& options = {});
 
-/// Contact of the mesh about its solution at this torque (> 0, all lobes, N·m). Fidelity linear: teeth alone.
-Outcome<LoadTangent> nominal_load(const NominalMesh& mesh, double torque_nm);
+/// Contact of the mesh about its solution at this torque (> 0, all lobes, N·m) or rotation (rad). Fidelity linear:
+/// teeth alone.
+Outcome<LoadTangent> nominal_load(const NominalMesh& mesh, double value, Control control = Control::torque);
 
 /// The same gear assembled on discs with other numbers.
 struct MeshAtDiscs {
