@@ -11,8 +11,12 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double node(int k, int terms) { return std::cos(pi * (k + 0.5) / terms); }
-double placed(double x, double lower, double upper) { return 0.5 * (lower + upper) + 0.5 * (upper - lower) * x; }
+double node(int k, int terms) {
+  return std::cos(pi * (k + 0.5) / terms);
+}
+double placed(double x, double lower, double upper) {
+  return 0.5 * (lower + upper) + 0.5 * (upper - lower) * x;
+}
 double unit(double value, double lower, double upper) {
   return upper > lower ? (2.0 * value - lower - upper) / (upper - lower) : 0.0;
 }
@@ -28,7 +32,8 @@ void polynomials(double x, int terms, double* t) {
 
 DiscSurface::Change difference(const MeshAtDiscs& a, const MeshAtDiscs& b, std::size_t i) {
   return {a.pose[i].rho_mm - b.pose[i].rho_mm, a.pose[i].phi1_rad - b.pose[i].phi1_rad,
-          a.pose[i].normal_rotation_rad - b.pose[i].normal_rotation_rad, a.tooth_shift_mm[i] - b.tooth_shift_mm[i]};
+          a.pose[i].normal_rotation_rad - b.pose[i].normal_rotation_rad,
+          a.tooth_shift_mm[i] - b.tooth_shift_mm[i]};
 }
 
 } // namespace
@@ -44,7 +49,8 @@ Outcome<std::vector<DiscSurface::Change>> disc_change(const NominalMesh& mesh, c
   return change;
 }
 
-Outcome<DiscSurface> DiscSurface::make(const NominalMesh& mesh, const DiscBox& box, const DiscSurfaceOptions& options) {
+Outcome<DiscSurface> DiscSurface::make(const NominalMesh& mesh, const DiscBox& box,
+                                       const DiscSurfaceOptions& options) {
   DiscSurface surface;
   surface.box_ = box;
   surface.teeth_ = mesh.teeth.size();
@@ -58,7 +64,8 @@ Outcome<DiscSurface> DiscSurface::make(const NominalMesh& mesh, const DiscBox& b
   std::vector<std::pair<double, double>> points;
   std::vector<std::vector<Change>> exact;
   for (int k = 0; k < checks; ++k) {
-    const double a = std::fmod(0.5 + 0.7548776662466927 * k, 1.0), b = std::fmod(0.5 + 0.5698402909980532 * k, 1.0);
+    const double a = std::fmod(0.5 + 0.7548776662466927 * k, 1.0),
+                 b = std::fmod(0.5 + 0.5698402909980532 * k, 1.0);
     points.emplace_back(placed(2.0 * a - 1.0, box.u0_lower, box.u0_upper),
                         placed(2.0 * b - 1.0, box.e_lower, box.e_upper));
     auto change = disc_change(mesh, *nominal, points.back().first, points.back().second);
@@ -90,20 +97,23 @@ Outcome<DiscSurface> DiscSurface::make(const NominalMesh& mesh, const DiscBox& b
       for (std::size_t i = 0; i < surface.teeth_; ++i) {
         const Change &a = found[i], &b = exact[at][i];
         const double r = mesh.teeth[i].contact_radius_mm, high = r - mesh.pose[i].rho_mm;
-        surface.error_ = std::max({surface.error_, std::abs(a.rho_mm - b.rho_mm), r * std::abs(a.phi1_rad - b.phi1_rad),
-                                   high * std::abs(a.normal_rotation_rad - b.normal_rotation_rad),
-                                   std::abs(a.shift_mm - b.shift_mm)});
+        surface.error_ =
+            std::max({surface.error_, std::abs(a.rho_mm - b.rho_mm), r * std::abs(a.phi1_rad - b.phi1_rad),
+                      high * std::abs(a.normal_rotation_rad - b.normal_rotation_rad),
+                      std::abs(a.shift_mm - b.shift_mm)});
       }
     }
     if (surface.error_ < options.tolerance_mm || degree + 2 > options.largest_degree)
       break;
   }
   if (!(surface.error_ < options.most_mm)) {
-    return Failure{Status::not_converged,
-                   fmt::format("the assembled state over u0 {:.6g} … {:.6g} mm and e {:.6g} … {:.6g} mm is met to {:.3g} "
-                               "µm by polynomials of degree {}, at most {:.3g} µm is allowed; take narrower distributions",
-                               box.u0_lower, box.u0_upper, box.e_lower, box.e_upper, 1e3 * surface.error_,
-                               surface.degree_, 1e3 * options.most_mm)};
+    return Failure{
+        Status::not_converged,
+        fmt::format(
+            "the assembled state over u0 {:.6g} … {:.6g} mm and e {:.6g} … {:.6g} mm is met to {:.3g} "
+            "µm by polynomials of degree {}, at most {:.3g} µm is allowed; take narrower distributions",
+            box.u0_lower, box.u0_upper, box.e_lower, box.e_upper, 1e3 * surface.error_, surface.degree_,
+            1e3 * options.most_mm)};
   }
   return surface;
 }

@@ -29,7 +29,8 @@ struct DiscSurfaceOptions {
 class DiscSurface {
 public:
   /// Failures: those of assembly within the box; not_converged when the largest degree leaves more than most_mm.
-  static Outcome<DiscSurface> make(const NominalMesh& mesh, const DiscBox& box, const DiscSurfaceOptions& options = {});
+  static Outcome<DiscSurface> make(const NominalMesh& mesh, const DiscBox& box,
+                                   const DiscSurfaceOptions& options = {});
 
   /// What a tooth's pose and q change by.
   struct Change {

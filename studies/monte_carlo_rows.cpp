@@ -11,12 +11,12 @@ Outcome<SampledStudy> make_monte_carlo_rows(const StudyFile& study, const RowOpt
   if (!made)
     return made.failure();
   const std::shared_ptr<const SampledGear> gear = *made;
-  const auto design = std::make_shared<const SampleDesign>(
-      DesignPlan{.design = sampling.design,
-                 .seed = static_cast<std::uint64_t>(study.seed),
-                 .samples = static_cast<std::uint64_t>(sampling.samples),
-                 .dimensions = static_cast<int>(gear->inputs()),
-                 .randomisations = sampling.randomisations});
+  const auto design =
+      std::make_shared<const SampleDesign>(DesignPlan{.design = sampling.design,
+                                                      .seed = static_cast<std::uint64_t>(study.seed),
+                                                      .samples = static_cast<std::uint64_t>(sampling.samples),
+                                                      .dimensions = static_cast<int>(gear->inputs()),
+                                                      .randomisations = sampling.randomisations});
   SampledStudy rows = study_of(gear);
   rows.rows = static_cast<std::uint64_t>(sampling.samples);
   rows.inputs = [gear, design](std::uint64_t first, std::size_t count, std::span<double> to) {
@@ -25,7 +25,8 @@ Outcome<SampledStudy> make_monte_carlo_rows(const StudyFile& study, const RowOpt
     for (std::size_t i = 0; i < count; ++i)
       gear->sources().transform(to.subspan(i * n, n));
   };
-  rows.input_values = [gear, inputs = rows.inputs](std::uint64_t first, std::size_t count, std::span<double> to) {
+  rows.input_values = [gear, inputs = rows.inputs](std::uint64_t first, std::size_t count,
+                                                   std::span<double> to) {
     const std::size_t n = gear->inputs(), names = gear->sources().sources().size();
     constexpr std::size_t together = 64;
     std::vector<double> whole(together * n);

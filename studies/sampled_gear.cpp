@@ -53,8 +53,8 @@ std::vector<TableColumn> SampledGear::output_columns() const {
 }
 
 Outcome<std::shared_ptr<const SampledGear>> SampledGear::make(const StudyFile& study,
-                                                              const std::vector<std::string>& outputs, int positions,
-                                                              const RowOptions& options) {
+                                                              const std::vector<std::string>& outputs,
+                                                              int positions, const RowOptions& options) {
   refuse_loads(study);
   SampledSources sources(study);
   const ForwardOptions forward{.disk_cache = options.disk_cache, .threads = options.threads};
@@ -102,7 +102,8 @@ std::optional<Failure> SampledGear::add_loads(const StudyFile& study) {
     auto tangent = nominal_load(mesh_, value, control);
     if (!tangent)
       return tangent.failure();
-    SampledContact contact(tangent->problem, static_cast<int>(mesh_.teeth.size()), tangent->state, tangent->modes);
+    SampledContact contact(tangent->problem, static_cast<int>(mesh_.teeth.size()), tangent->state,
+                           tangent->modes);
     loads_.push_back({control, value, std::move(tangent).value(), std::move(contact)});
   }
   return std::nullopt;

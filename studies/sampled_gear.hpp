@@ -37,7 +37,8 @@ struct SampledLoad {
 class SampledGear : public RowModel {
 public:
   /// Throws FieldError for loads and keys that rows of samples do not have. `outputs`: names, empty for all.
-  static Outcome<std::shared_ptr<const SampledGear>> make(const StudyFile& study, const std::vector<std::string>& outputs,
+  static Outcome<std::shared_ptr<const SampledGear>> make(const StudyFile& study,
+                                                          const std::vector<std::string>& outputs,
                                                           int positions, const RowOptions& options);
 
   std::size_t inputs() const override { return sources_.dimensions(); }
@@ -69,9 +70,9 @@ private:
   std::vector<SampledLoad> loads_;
   std::optional<DiscSurface> discs_;
   std::optional<MeshAtDiscs> nominal_discs_;
-  std::vector<double> cosine_;        ///< of each tooth's local pressure angle
-  std::vector<std::uint8_t> near_;    ///< teeth whose flanks are searched when the discs change
-  std::vector<std::size_t> wanted_;   ///< into sampled_responses()
+  std::vector<double> cosine_;      ///< of each tooth's local pressure angle
+  std::vector<std::uint8_t> near_;  ///< teeth whose flanks are searched when the discs change
+  std::vector<std::size_t> wanted_; ///< into sampled_responses()
   std::vector<int> positions_;
 };
 

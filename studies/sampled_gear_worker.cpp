@@ -55,8 +55,9 @@ private:
     for (std::size_t k = 0; k < gear_.wanted_.size(); ++k) {
       const double value = worst[gear_.wanted_[k]];
       if (!std::isfinite(value))
-        return slice.fail(at, row_no_value,
-                          fmt::format("{} has no value for this sample", sampled_responses()[gear_.wanted_[k]].name));
+        return slice.fail(
+            at, row_no_value,
+            fmt::format("{} has no value for this sample", sampled_responses()[gear_.wanted_[k]].name));
       slice.outputs[at * gear_.wanted_.size() + k] = value;
     }
   }
@@ -66,14 +67,15 @@ private:
     const ContactProblem& nominal = load.tangent.problem;
     for (std::size_t i = 0; i < backlash_.size(); ++i) {
       const double c = gear_.cosine_[i];
-      gap_[i] = nominal.q(static_cast<Eigen::Index>(i)) + c * (backlash_[i] - gear_.mesh_.teeth[i].backlash_mm);
+      gap_[i] =
+          nominal.q(static_cast<Eigen::Index>(i)) + c * (backlash_[i] - gear_.mesh_.teeth[i].backlash_mm);
       arm_[i] = c * radius_[i];
     }
     if (gear_.discs_)
       for (std::size_t i = 0; i < gap_.size(); ++i)
         gap_[i] += shift_[i];
-    const auto modes = std::span<const double>(amplitude_).first(
-        gear_.discs_ ? std::min(amplitude_.size(), load.contact.modes()) : 0);
+    const auto modes = std::span<const double>(amplitude_)
+                           .first(gear_.discs_ ? std::min(amplitude_.size(), load.contact.modes()) : 0);
     const ContactSample sample{gap_, arm_, modes};
     double value = load.value;
     if (const auto* source = gear_.sources_.find(SourceRole::torque, k))
@@ -81,7 +83,8 @@ private:
     std::optional<Failure> failure;
     if (load.control == Control::torque) {
       if (!(value > 0.0)) {
-        slice.fail(at, row_out_of_range, fmt::format("a torque of {:.6g} N·m was drawn; it has to be above 0", value));
+        slice.fail(at, row_out_of_range,
+                   fmt::format("a torque of {:.6g} N·m was drawn; it has to be above 0", value));
         return false;
       }
       failure = solvers_[k]->solve_torque(sample, 1e3 * value, state_);
@@ -101,11 +104,13 @@ private:
       const double free = backlash_[i] + coast_[i] - state_.gap[i] / gear_.cosine_[i];
       if (!(free < 0.0))
         continue;
-      slice.fail(at, row_coast_contact,
-                 fmt::format("under {:.4g} {} the coast flank of the tooth at {:.2f}° would be {:.3g} µm inside its space "
-                             "(position {} of the wave generator); only drive flanks carry in samples",
-                             value, control == Control::torque ? "N·m" : "rad", phi_[i] * 180.0 / std::numbers::pi,
-                             -1e3 * free, position));
+      slice.fail(
+          at, row_coast_contact,
+          fmt::format(
+              "under {:.4g} {} the coast flank of the tooth at {:.2f}° would be {:.3g} µm inside its space "
+              "(position {} of the wave generator); only drive flanks carry in samples",
+              value, control == Control::torque ? "N·m" : "rad", phi_[i] * 180.0 / std::numbers::pi,
+              -1e3 * free, position));
       return false;
     }
     return true;
@@ -146,12 +151,14 @@ private:
       const ToothErrors& error = errors_[i];
       // as a motion: outwards, along the circle, and of the tooth's direction in space
       ToothMotion motion = error.motion;
-      motion += {change.rho_mm, nominal.rho_mm * change.phi1_rad, change.phi1_rad + change.normal_rotation_rad};
+      motion +=
+          {change.rho_mm, nominal.rho_mm * change.phi1_rad, change.phi1_rad + change.normal_rotation_rad};
       coast_[i] = model.nominal_coast_mm(i) + model.coast_by(i, motion) + error.coast_backlash_mm;
       if (gear_.near_[i]) {
         Pose pose{nominal.rho_mm + change.rho_mm, nominal.phi1_rad + change.phi1_rad,
                   nominal.normal_rotation_rad + change.normal_rotation_rad};
-        const ToothBacklash direct = gear_.flanks_.drive(moved(pose, error.motion), model.place(i).space_angle_rad);
+        const ToothBacklash direct =
+            gear_.flanks_.drive(moved(pose, error.motion), model.place(i).space_angle_rad);
         if (direct.overlap) {
           backlash_[i] = direct.backlash_mm + error.backlash_mm;
           radius_[i] = direct.contact_radius_mm + error.radius_mm;

@@ -17,27 +17,40 @@ constexpr std::string_view torque_head = "load.torque_nm[";
 
 ToleranceKind tolerance_kind(SourceKind kind) {
   switch (kind) {
-  case SourceKind::adjacent_pitch: return ToleranceKind::adjacent_pitch;
-  case SourceKind::cumulative_pitch: return ToleranceKind::cumulative_pitch;
-  case SourceKind::run_out: return ToleranceKind::run_out;
-  case SourceKind::tooth_thickness: return ToleranceKind::tooth_thickness;
-  case SourceKind::centre_offset: return ToleranceKind::centre_offset;
-  case SourceKind::ovality: return ToleranceKind::ovality;
-  case SourceKind::backlash_noise: return ToleranceKind::backlash_noise;
-  case SourceKind::profile_slope: return ToleranceKind::profile_slope;
-  case SourceKind::profile_form: return ToleranceKind::profile_form;
-  case SourceKind::wear: return ToleranceKind::wear;
-  case SourceKind::gear_key: break;
+  case SourceKind::adjacent_pitch:
+    return ToleranceKind::adjacent_pitch;
+  case SourceKind::cumulative_pitch:
+    return ToleranceKind::cumulative_pitch;
+  case SourceKind::run_out:
+    return ToleranceKind::run_out;
+  case SourceKind::tooth_thickness:
+    return ToleranceKind::tooth_thickness;
+  case SourceKind::centre_offset:
+    return ToleranceKind::centre_offset;
+  case SourceKind::ovality:
+    return ToleranceKind::ovality;
+  case SourceKind::backlash_noise:
+    return ToleranceKind::backlash_noise;
+  case SourceKind::profile_slope:
+    return ToleranceKind::profile_slope;
+  case SourceKind::profile_form:
+    return ToleranceKind::profile_form;
+  case SourceKind::wear:
+    return ToleranceKind::wear;
+  case SourceKind::gear_key:
+    break;
   }
   return ToleranceKind::gear_key;
 }
 
 bool has_phase(ToleranceKind kind) {
-  return kind == ToleranceKind::cumulative_pitch || kind == ToleranceKind::run_out || kind == ToleranceKind::ovality;
+  return kind == ToleranceKind::cumulative_pitch || kind == ToleranceKind::run_out ||
+         kind == ToleranceKind::ovality;
 }
 
 /// A source by its path. Throws FieldError for keys that the finite elements or the search for contact depend on.
-void set_key(const StudyFile& study, const std::string& at, SampledSources::Source& source, const std::string& path) {
+void set_key(const StudyFile& study, const std::string& at, SampledSources::Source& source,
+             const std::string& path) {
   if (path == "wave_generator.max_radial_deformation_mm") {
     source.role = SourceRole::radial_deformation;
   } else if (path == "wave_generator.eccentricity_mm") {
@@ -49,20 +62,22 @@ void set_key(const StudyFile& study, const std::string& at, SampledSources::Sour
     if (source.load_case >= study.load_cases.size() || !study.load_cases[source.load_case].torque_nm)
       throw FieldError(at + ".path", fmt::format("load case {} is not given by a torque", source.load_case));
   } else if (!path.starts_with("circular_spline.") && !path.starts_with("flank_modification.")) {
-    throw FieldError(at + ".path",
-                     fmt::format("{} cannot be a source: samples share one cup; expected a key of circular_spline or "
-                                 "flank_modification, wave_generator.max_radial_deformation_mm or eccentricity_mm, or "
-                                 "load.torque_nm[0]. Other keys can be swept",
-                                 path));
+    throw FieldError(
+        at + ".path",
+        fmt::format("{} cannot be a source: samples share one cup; expected a key of circular_spline or "
+                    "flank_modification, wave_generator.max_radial_deformation_mm or eccentricity_mm, or "
+                    "load.torque_nm[0]. Other keys can be swept",
+                    path));
   }
   const bool disc = source.role == SourceRole::radial_deformation || source.role == SourceRole::eccentricity;
   const WaveGenerator& wg = study.gear.wave_generator;
   if (disc && wg.shape != WaveGeneratorShape::two_disc && wg.shape != WaveGeneratorShape::two_disc_exact)
     throw FieldError(at + ".path", fmt::format("{} as a source needs a wave generator with two discs", path));
   if (disc && !wg.eccentricity_mm)
-    throw FieldError(at + ".path", fmt::format("{} as a source needs wave_generator.eccentricity_mm instead of "
-                                               "wrap_angle_deg in the gear",
-                                               path));
+    throw FieldError(at + ".path",
+                     fmt::format("{} as a source needs wave_generator.eccentricity_mm instead of "
+                                 "wrap_angle_deg in the gear",
+                                 path));
   source.unit = plain_unit(NumberPath(path).field().unit);
 }
 
@@ -135,7 +150,8 @@ void SampledSources::draw(const StudyFile& study) {
     std::vector<double> matrix(n * n, 0.0);
     const auto at = [&](const std::string& name) {
       return static_cast<std::size_t>(
-          std::ranges::find_if(correlated, [&](const Source* s) { return s->name == name; }) - correlated.begin());
+          std::ranges::find_if(correlated, [&](const Source* s) { return s->name == name; }) -
+          correlated.begin());
     };
     for (std::size_t i = 0; i < n; ++i)
       matrix[i * n + i] = 1.0;
@@ -191,7 +207,8 @@ void SampledSources::named_values(std::span<const double> row, std::span<double>
     double sum = 0.0;
     for (std::size_t d = 0; d < s.count; ++d)
       sum += row[s.first + d] * row[s.first + d];
-    named[i] = std::sqrt(s.tolerance.kind == ToleranceKind::centre_offset ? sum : sum / static_cast<double>(s.count));
+    named[i] = std::sqrt(
+        s.tolerance.kind == ToleranceKind::centre_offset ? sum : sum / static_cast<double>(s.count));
   }
 }
 

@@ -32,11 +32,11 @@ public:
   struct Source {
     std::string name;
     SourceRole role = SourceRole::flank;
-    ToleranceSource tolerance;  ///< of role flank
-    std::size_t load_case = 0;  ///< of role torque
-    std::size_t first = 0;      ///< its numbers in a row
+    ToleranceSource tolerance; ///< of role flank
+    std::size_t load_case = 0; ///< of role torque
+    std::size_t first = 0;     ///< its numbers in a row
     std::size_t count = 1;
-    std::string unit;           ///< of its named number, as HDF5 is told
+    std::string unit; ///< of its named number, as HDF5 is told
     Distribution distribution;
     double mean = 0.0, std = 0.0; ///< of its distribution
     bool one_number() const { return count == 1; }

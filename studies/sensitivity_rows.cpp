@@ -65,7 +65,8 @@ RowInputs sobol_rows(const std::shared_ptr<const SampledGear>& gear, std::uint64
   };
 }
 
-RowInputs morris_rows(const std::shared_ptr<const SampledGear>& gear, const MorrisPoints& points, std::uint64_t seed) {
+RowInputs morris_rows(const std::shared_ptr<const SampledGear>& gear, const MorrisPoints& points,
+                      std::uint64_t seed) {
   return [gear, points, seed](std::uint64_t first, std::size_t count, std::span<double> to) {
     const std::size_t n = gear->inputs();
     const auto& sources = gear->sources().sources();
@@ -162,11 +163,15 @@ Outcome<SampledStudy> make_sensitivity_rows(const StudyFile& study, const RowOpt
   case SensitivityMethod::local: {
     const Places which = local_sources(gear->sources());
     if (which->empty())
-      throw FieldError("source", "errors of single teeth have no derivative by one number; local elasticities need a source "
-                                 "that is one number");
+      throw FieldError(
+          "source",
+          "errors of single teeth have no derivative by one number; local elasticities need a source "
+          "that is one number");
     rows.rows = 1 + 2 * which->size();
     rows.inputs = local_rows(gear, which);
-    rows.elasticities = [gear, which](const RowTable& table) { return elasticities_of(*gear, *which, table); };
+    rows.elasticities = [gear, which](const RowTable& table) {
+      return elasticities_of(*gear, *which, table);
+    };
     break;
   }
   }

@@ -33,11 +33,11 @@ double own_lobe(double phi_rad) {
 }
 
 /// Poses of teeth: of the neutral curve, or of the assembled cup in the middle of the face.
-PoseSource pose_source(const NominalMesh& mesh, const NeutralCurve& curve, const AssembledState& assembled,
-                       std::shared_ptr<AssembledPoses>& keep) {
+PoseSource pose_source(const NominalMesh& mesh, const RingCompliance& ring, const NeutralCurve& curve,
+                       const AssembledState& assembled, std::shared_ptr<AssembledPoses>& keep) {
   if (mesh.gear.contact.gaps != GapModel::assembled)
     return [&curve](int, double phi, int) { return curve.pose(phi); };
-  keep = std::make_shared<AssembledPoses>(*mesh.ring, assembled, mesh.gear.flexspline.neutral_radius_mm, 0.0,
+  keep = std::make_shared<AssembledPoses>(ring, assembled, mesh.gear.flexspline.neutral_radius_mm, 0.0,
                                           slice_places(*mesh.responses));
   return [keep](int sector, double phi, int slice) { return keep->pose(sector, phi, slice); };
 }
@@ -51,7 +51,7 @@ std::vector<Pose> poses_of(const NominalMesh& mesh, const PoseSource& source) {
 
 /// −d of assembly: what the unloaded wall forces do to the teeth's gaps.
 Eigen::VectorXd assembly_shift(const NominalMesh& mesh, const AssembledState& assembled) {
-  return mesh.ring->tooth_displacement(tooth_functionals(*mesh.ring, mesh.teeth), assembled.stations,
+  return mesh.half->tooth_displacement(tooth_functionals(*mesh.half, mesh.teeth), assembled.stations,
                                        assembled.force_components());
 }
 
@@ -91,6 +91,9 @@ Outcome<NominalMesh> nominal_mesh(ForwardModel& model, const Gear& gear, const F
                    .curve = *curve,
                    .responses = responses,
                    .ring = ring,
+                   .half = gear.flexspline.teeth % 2 == 0
+                               ? std::make_shared<const RingCompliance>(*responses, contact_rows(gear), true)
+                               : ring,
                    .surface = surface_of(gear, *curve, shift),
                    .assembled = {},
                    .teeth = {},
@@ -117,7 +120,7 @@ Outcome<NominalMesh> nominal_mesh(ForwardModel& model, const Gear& gear, const F
   if (!pair)
     return pair.failure();
   std::shared_ptr<AssembledPoses> keep;
-  const PoseSource source = pose_source(mesh, mesh.curve, mesh.assembled, keep);
+  const PoseSource source = pose_source(mesh, *mesh.ring, mesh.curve, mesh.assembled, keep);
   mesh.teeth = flank_points(gear, *responses, ring_table, {*pair}, source);
   if (gear.contact.lobes == 1)
     std::erase_if(mesh.teeth, [](const LoadedPoint& p) { return p.phi_rad > 0.5 * pi + 1e-12; });
@@ -130,8 +133,8 @@ Outcome<NominalMesh> nominal_mesh(ForwardModel& model, const Gear& gear, const F
 
 namespace {
 
-Outcome<ContactState> solved(ContactSolver& solver, const ContactProblem& problem, double value, Control control,
-                             const ActiveSet& warm) {
+Outcome<ContactState> solved(ContactSolver& solver, const ContactProblem& problem, double value,
+                             Control control, const ActiveSet& warm) {
   if (control == Control::torque)
     return solver.solve_torque(problem, 1e3 * value, warm);
   return solver.solve_at(problem, value, warm);
@@ -164,8 +167,7 @@ Outcome<LoadTangent> nominal_load(const NominalMesh& mesh, double value, Control
     return state.failure();
   if (mesh.gear.contact.disc_gap == DiscGap::linearised)
     return linear_tangent(mesh.assembled, load, *state, changed);
-  auto exact =
-      correct_to_exact_gap(*mesh.ring, mesh.surface, mesh.assembled, load, *state, control, solver);
+  auto exact = correct_to_exact_gap(*mesh.ring, mesh.surface, mesh.assembled, load, *state, control, solver);
   if (!exact)
     return exact.failure();
   return tangent_at(*mesh.ring, mesh.surface, mesh.assembled, load, *exact, changed);
@@ -179,16 +181,15 @@ Outcome<MeshAtDiscs> mesh_at_discs(const NominalMesh& mesh, double u0_mm, double
   MeshAtDiscs result;
   const bool loose = gear.contact.fidelity != Fidelity::linear;
   AssembledState assembled;
-  std::shared_ptr<const RingCompliance> ring = mesh.ring;
   if (loose || gear.contact.gaps == GapModel::assembled) {
     ContactSolver solver;
-    auto solved = assemble(*ring, surface_of(gear, *curve, mesh.disc_shift_mm), 0.0, solver);
+    auto solved = assemble(*mesh.half, surface_of(gear, *curve, mesh.disc_shift_mm), 0.0, solver);
     if (!solved)
       return solved.failure();
     assembled = std::move(solved).value();
   }
   std::shared_ptr<AssembledPoses> keep;
-  result.pose = poses_of(mesh, pose_source(mesh, *curve, assembled, keep));
+  result.pose = poses_of(mesh, pose_source(mesh, *mesh.half, *curve, assembled, keep));
   result.tooth_shift_mm.assign(mesh.teeth.size(), 0.0);
   if (loose) {
     const Eigen::VectorXd shift = assembly_shift(mesh, assembled);

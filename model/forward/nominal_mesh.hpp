@@ -24,6 +24,8 @@ struct NominalMesh {
   NeutralCurve curve;
   std::shared_ptr<const UnitResponses> responses;
   std::shared_ptr<const RingCompliance> ring; ///< unfolded
+  std::shared_ptr<const RingCompliance>
+      half; ///< folded where both lobes are alike, for assembly; else the same
   WaveGeneratorSurface surface;
   AssembledState assembled;
   std::vector<LoadedPoint> teeth; ///< ascending φ
