@@ -75,6 +75,8 @@ void loads(const std::vector<LoadResult>& results, Out out) {
       fmt::format_to(out, "{:>9}", "–");
     if (load.direction == Direction::coast)
       fmt::format_to(out, "  coast");
+    if (!load.coast.tooth.empty())
+      fmt::format_to(out, "  coast flanks up to {:.2f} N", load.coast.peak_force_n);
     if (load.transmission_error_arcsec) {
       fmt::format_to(out, "  transmission error {:.3f}″ peak to peak", *load.transmission_error_arcsec);
     }
@@ -162,10 +164,15 @@ std::string result_table(const ForwardResult& result) {
   if (const auto& s = result.stiffness) {
     fmt::format_to(out,
                    "\nStiffness       {:.1f} N·m/rad (secant at rated torque), wind-up {:.3f}′, take-up "
-                   "{:.3f}′, lost motion {}\n",
+                   "{:.3f}′, lost motion {:.3f}′\n",
                    s->secant_nm_per_rad, arcmin_per_rad * s->wind_up_rad, arcmin_per_rad * s->take_up_rad,
-                   std::isfinite(s->lost_motion_arcmin) ? fmt::format("{:.3f}′", s->lost_motion_arcmin)
-                                                        : std::string("none (flanks interfere)"));
+                   s->lost_motion_arcmin);
+  }
+  if (const auto& w = result.wedge) {
+    fmt::format_to(out,
+                   "WEDGED          at rest up to {:.2f} N on a flank, {:.2f} N in all (each lobe; {} drive and {} coast "
+                   "flanks), rigid overlap {:.2f} µm\n",
+                   w->peak_force_n, w->sum_force_n, w->drive_count, w->coast_count, w->overlap_um);
   }
   if (result.certificate && !result.load.empty())
     certificate(*result.certificate, out);

@@ -150,6 +150,7 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
   result.state = start;
   ContactProblem problem = load.problem;
   Eigen::MatrixX2d normal = assembled.normal;
+  Eigen::MatrixXd components; // of the wall by unit tooth loads
   for (int step = 0; step <= max_steps; ++step) {
     const Eigen::VectorXd wall = result.state.force.tail(m);
     result.wall_force = normal.array().colwise() * wall.array();
@@ -173,8 +174,10 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
                      describe_divergence("contact of the wall with the wave generator under load",
                                          result.residual_mm, step)};
     }
-    problem.m.bottomRightCorner(m, m) = ring.wall_wall(assembled.stations, normal);
-    const Eigen::MatrixXd wall_tooth = ring.wall_tooth(assembled.stations, normal, load.points);
+    ring.wall_wall(assembled.stations, normal, problem.m.bottomRightCorner(m, m));
+    if (step == 0)
+      components = ring.wall_components_of_teeth(assembled.stations, load.points);
+    const Eigen::MatrixXd wall_tooth = along_normals(normal, components);
     problem.m.bottomLeftCorner(m, n) = -wall_tooth;
     problem.m.topRightCorner(n, m) = -wall_tooth.transpose();
     problem.q.head(n) = tooth_gap;

@@ -63,6 +63,15 @@ RingCompliance::RingCompliance(const UnitResponses& responses, std::vector<doubl
     wall_wall_.push_back(wall_all_.back() * p);
     all_.push_back(std::move(g));
   }
+  const Eigen::Index drive = responses.flank_count();
+  const Eigen::Index coast = responses.coast_count();
+  for (int k = 0; k < period_; ++k) {
+    // functional ← wall at offset k is wall ← functional at −k, by reciprocity
+    const Eigen::MatrixXd& from = wall_all_[static_cast<std::size_t>(wrapped(-k))];
+    Eigen::MatrixXd& g = flank_wall_.emplace_back(drive + coast, from.rows());
+    g.topRows(drive) = from.leftCols(drive).transpose();
+    g.bottomRows(coast) = from.rightCols(coast).transpose();
+  }
 }
 
 std::vector<WallStation> RingCompliance::stations(double phase) const {
@@ -130,19 +139,74 @@ Eigen::MatrixXd RingCompliance::wall_wall(std::span<const WallStation> stations,
                                           const Eigen::MatrixX2d& normal) const {
   const auto n = static_cast<Eigen::Index>(stations.size());
   Eigen::MatrixXd result(n, n);
+  wall_wall(stations, normal, result);
+  return result;
+}
+
+void RingCompliance::wall_wall(std::span<const WallStation> stations, const Eigen::MatrixX2d& normal,
+                               Eigen::Ref<Eigen::MatrixXd> result) const {
+  const auto n = static_cast<Eigen::Index>(stations.size());
+  Eigen::VectorXd along; // displacements of one sector's wall functionals from a unit force along normal j
   for (Eigen::Index j = 0; j < n; ++j) {
     const WallStation& load = stations[static_cast<std::size_t>(j)];
     const int b = wall_index(load);
+    int sector = 0;
+    bool fresh = true;
     for (Eigen::Index i = j; i < n; ++i) {
       const WallStation& at = stations[static_cast<std::size_t>(i)];
-      const Eigen::MatrixXd& g = wall_wall_[static_cast<std::size_t>(wrapped(at.sector - load.sector))];
-      const int a = wall_index(at);
-      // wall functionals come as (circumferential, radial)
-      const double value = normal(i, 0) * (g(a + 1, b + 1) * normal(j, 0) + g(a + 1, b) * normal(j, 1)) +
-                           normal(i, 1) * (g(a, b + 1) * normal(j, 0) + g(a, b) * normal(j, 1));
+      if (fresh || at.sector != sector) {
+        const Eigen::MatrixXd& g = wall_wall_[static_cast<std::size_t>(wrapped(at.sector - load.sector))];
+        along = g.col(b + 1) * normal(j, 0) + g.col(b) * normal(j, 1);
+        sector = at.sector;
+        fresh = false;
+      }
+      const int a = wall_index(at); // wall functionals come as (circumferential, radial)
+      const double value = normal(i, 0) * along(a + 1) + normal(i, 1) * along(a);
       result(i, j) = value;
       result(j, i) = value;
     }
+  }
+}
+
+Eigen::MatrixXd RingCompliance::wall_components_of_teeth(std::span<const WallStation> stations,
+                                                         std::span<const ToothFunctional> teeth) const {
+  const auto n = static_cast<Eigen::Index>(stations.size());
+  Eigen::MatrixXd result(2 * n, static_cast<Eigen::Index>(teeth.size()));
+  const auto points = static_cast<std::size_t>(wall_wall_.front().rows());
+  std::vector<double> moved(points); // wall functionals of one sector
+  for (Eigen::Index j = 0; j < result.cols(); ++j) {
+    const ToothFunctional& tooth = teeth[static_cast<std::size_t>(j)];
+    double* const column = result.col(j).data();
+    int sector = 0;
+    bool fresh = true;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const WallStation& at = stations[static_cast<std::size_t>(i)];
+      if (fresh || at.sector != sector) {
+        const Eigen::MatrixXd& g = wall_all_[static_cast<std::size_t>(wrapped(at.sector - tooth.sector))];
+        std::fill(moved.begin(), moved.end(), 0.0);
+        for (const auto& [b, weight] : tooth.weights) {
+          const double* const from = g.col(b).data();
+          for (std::size_t a = 0; a < points; ++a)
+            moved[a] += weight * from[a];
+        }
+        sector = at.sector;
+        fresh = false;
+      }
+      const auto a = static_cast<std::size_t>(wall_index(at));
+      column[2 * i] = moved[a + 1];
+      column[2 * i + 1] = moved[a];
+    }
+  }
+  return result;
+}
+
+Eigen::MatrixXd along_normals(const Eigen::MatrixX2d& normal, const Eigen::MatrixXd& components) {
+  const Eigen::Index n = normal.rows();
+  Eigen::MatrixXd result(n, components.cols());
+  for (Eigen::Index j = 0; j < result.cols(); ++j) {
+    const double* const from = components.col(j).data();
+    for (Eigen::Index i = 0; i < n; ++i)
+      result(i, j) = normal(i, 0) * from[2 * i] + normal(i, 1) * from[2 * i + 1];
   }
   return result;
 }
@@ -150,21 +214,7 @@ Eigen::MatrixXd RingCompliance::wall_wall(std::span<const WallStation> stations,
 Eigen::MatrixXd RingCompliance::wall_tooth(std::span<const WallStation> stations,
                                            const Eigen::MatrixX2d& normal,
                                            std::span<const ToothFunctional> teeth) const {
-  Eigen::MatrixXd result(static_cast<Eigen::Index>(stations.size()), static_cast<Eigen::Index>(teeth.size()));
-  for (Eigen::Index j = 0; j < result.cols(); ++j) {
-    const ToothFunctional& tooth = teeth[static_cast<std::size_t>(j)];
-    for (Eigen::Index i = 0; i < result.rows(); ++i) {
-      const WallStation& at = stations[static_cast<std::size_t>(i)];
-      const Eigen::MatrixXd& g = wall_all_[static_cast<std::size_t>(wrapped(at.sector - tooth.sector))];
-      const int a = wall_index(at);
-      double sum = 0.0;
-      for (const auto& [b, weight] : tooth.weights) {
-        sum += weight * (normal(i, 0) * g(a + 1, b) + normal(i, 1) * g(a, b));
-      }
-      result(i, j) = sum;
-    }
-  }
-  return result;
+  return along_normals(normal, wall_components_of_teeth(stations, teeth));
 }
 
 Eigen::MatrixXd RingCompliance::tooth_tooth(std::span<const ToothFunctional> teeth) const {
@@ -187,38 +237,91 @@ Eigen::MatrixXd RingCompliance::tooth_tooth(std::span<const ToothFunctional> tee
   return result;
 }
 
+namespace {
+
+/// One force on a functional of a sector, N.
+struct SectorForce {
+  int sector = 0;
+  int functional = 0;
+  double force = 0.0;
+};
+
+std::vector<SectorForce> listed(std::span<const ToothFunctional> teeth, const Eigen::VectorXd& force) {
+  std::vector<SectorForce> list;
+  for (Eigen::Index j = 0; j < force.size(); ++j) {
+    if (force(j) == 0.0)
+      continue;
+    const ToothFunctional& tooth = teeth[static_cast<std::size_t>(j)];
+    for (const auto& [b, weight] : tooth.weights)
+      list.push_back({tooth.sector, b, weight * force(j)});
+  }
+  return list;
+}
+
+} // namespace
+
+// Displacements are summed sector by sector, a whole column of a response at a time: every functional of a sector costs as
+// much as one of them alone.
+
 Eigen::MatrixX2d RingCompliance::wall_displacement(std::span<const WallStation> at,
                                                    std::span<const WallStation> loaded,
                                                    const Eigen::MatrixX2d& wall_force,
                                                    std::span<const ToothFunctional> teeth,
                                                    const Eigen::VectorXd& tooth_force) const {
-  Eigen::MatrixX2d result = Eigen::MatrixX2d::Zero(static_cast<Eigen::Index>(at.size()), 2);
+  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(wall_wall_.front().rows(), period_);
+  std::vector<std::uint8_t> wanted(static_cast<std::size_t>(period_), 0);
+  for (const WallStation& point : at)
+    wanted[static_cast<std::size_t>(wrapped(point.sector))] = 1;
+  const auto add = [&](const std::vector<Eigen::MatrixXd>& responses, const SectorForce& load) {
+    for (int sector = 0; sector < period_; ++sector) {
+      if (wanted[static_cast<std::size_t>(sector)])
+        moved.col(sector) +=
+            load.force *
+            responses[static_cast<std::size_t>(wrapped(sector - load.sector))].col(load.functional);
+    }
+  };
+  for (Eigen::Index j = 0; j < wall_force.rows(); ++j) {
+    const WallStation& load = loaded[static_cast<std::size_t>(j)];
+    const int b = wall_index(load);
+    if (wall_force(j, 0) != 0.0)
+      add(wall_wall_, {load.sector, b + 1, wall_force(j, 0)});
+    if (wall_force(j, 1) != 0.0)
+      add(wall_wall_, {load.sector, b, wall_force(j, 1)});
+  }
+  for (const SectorForce& load : listed(teeth, tooth_force))
+    add(wall_all_, load);
+  Eigen::MatrixX2d result(static_cast<Eigen::Index>(at.size()), 2);
   for (Eigen::Index i = 0; i < result.rows(); ++i) {
     const WallStation& point = at[static_cast<std::size_t>(i)];
     const int a = wall_index(point);
-    double w = 0.0;
-    double v = 0.0;
-    for (Eigen::Index j = 0; j < wall_force.rows(); ++j) {
-      if (wall_force(j, 0) == 0.0 && wall_force(j, 1) == 0.0)
-        continue;
-      const WallStation& load = loaded[static_cast<std::size_t>(j)];
-      const Eigen::MatrixXd& g = wall_wall_[static_cast<std::size_t>(wrapped(point.sector - load.sector))];
-      const int b = wall_index(load);
-      w += g(a + 1, b + 1) * wall_force(j, 0) + g(a + 1, b) * wall_force(j, 1);
-      v += g(a, b + 1) * wall_force(j, 0) + g(a, b) * wall_force(j, 1);
+    result(i, 0) = moved(a + 1, wrapped(point.sector));
+    result(i, 1) = moved(a, wrapped(point.sector));
+  }
+  return result;
+}
+
+/// The functionals' own displacements from those of all flank functionals, drive then coast, of their sectors; `add` sums
+/// one sector's.
+template <class Add>
+Eigen::VectorXd RingCompliance::measured(std::span<const ToothFunctional> teeth, const Add& add) const {
+  const int drive = responses_->flank_count();
+  const int skipped = responses_->wall_count() + responses_->section_count();
+  std::vector<int> place(static_cast<std::size_t>(period_), -1);
+  Eigen::MatrixXd moved(drive + responses_->coast_count(), period_);
+  Eigen::VectorXd result(static_cast<Eigen::Index>(teeth.size()));
+  int known = 0;
+  for (Eigen::Index i = 0; i < result.size(); ++i) {
+    const ToothFunctional& tooth = teeth[static_cast<std::size_t>(i)];
+    int& at = place[static_cast<std::size_t>(wrapped(tooth.sector))];
+    if (at < 0) {
+      at = known++;
+      moved.col(at).setZero();
+      add(tooth.sector, moved.col(at));
     }
-    for (Eigen::Index j = 0; j < tooth_force.size(); ++j) {
-      if (tooth_force(j) == 0.0)
-        continue;
-      const ToothFunctional& tooth = teeth[static_cast<std::size_t>(j)];
-      const Eigen::MatrixXd& g = wall_all_[static_cast<std::size_t>(wrapped(point.sector - tooth.sector))];
-      for (const auto& [b, weight] : tooth.weights) {
-        w += g(a + 1, b) * weight * tooth_force(j);
-        v += g(a, b) * weight * tooth_force(j);
-      }
-    }
-    result(i, 0) = w;
-    result(i, 1) = v;
+    double sum = 0.0;
+    for (const auto& [a, weight] : tooth.weights)
+      sum += weight * moved(a < drive ? a : a - skipped, at);
+    result(i) = sum;
   }
   return result;
 }
@@ -226,44 +329,32 @@ Eigen::MatrixX2d RingCompliance::wall_displacement(std::span<const WallStation> 
 Eigen::VectorXd RingCompliance::tooth_displacement(std::span<const ToothFunctional> of,
                                                    std::span<const ToothFunctional> loaded,
                                                    const Eigen::VectorXd& force) const {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(of.size()));
-  for (Eigen::Index j = 0; j < force.size(); ++j) {
-    if (force(j) == 0.0)
-      continue;
-    const ToothFunctional& load = loaded[static_cast<std::size_t>(j)];
-    for (Eigen::Index i = 0; i < result.size(); ++i) {
-      const ToothFunctional& at = of[static_cast<std::size_t>(i)];
-      const Eigen::MatrixXd& g = all_[static_cast<std::size_t>(wrapped(at.sector - load.sector))];
-      double sum = 0.0;
-      for (const auto& [b, weight_b] : load.weights) {
-        for (const auto& [a, weight_a] : at.weights)
-          sum += weight_a * weight_b * g(a, b);
-      }
-      result(i) += sum * force(j);
+  const std::vector<SectorForce> loads = listed(loaded, force);
+  const Eigen::Index drive = responses_->flank_count();
+  const Eigen::Index coast = responses_->coast_count();
+  return measured(of, [&](int sector, auto&& moved) {
+    for (const SectorForce& load : loads) {
+      const auto from = all_[static_cast<std::size_t>(wrapped(sector - load.sector))].col(load.functional);
+      moved.head(drive) += load.force * from.head(drive);
+      if (coast > 0)
+        moved.tail(coast) += load.force * from.tail(coast);
     }
-  }
-  return result;
+  });
 }
 
 Eigen::VectorXd RingCompliance::tooth_displacement(std::span<const ToothFunctional> teeth,
                                                    std::span<const WallStation> loaded,
                                                    const Eigen::MatrixX2d& wall_force) const {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(teeth.size()));
-  for (Eigen::Index i = 0; i < result.size(); ++i) {
-    const ToothFunctional& tooth = teeth[static_cast<std::size_t>(i)];
+  return measured(teeth, [&](int sector, auto&& moved) {
     for (Eigen::Index j = 0; j < wall_force.rows(); ++j) {
       if (wall_force(j, 0) == 0.0 && wall_force(j, 1) == 0.0)
         continue;
       const WallStation& load = loaded[static_cast<std::size_t>(j)];
-      // tooth ← wall at offset k is wall ← tooth at −k, by reciprocity
-      const Eigen::MatrixXd& g = wall_all_[static_cast<std::size_t>(wrapped(load.sector - tooth.sector))];
+      const Eigen::MatrixXd& g = flank_wall_[static_cast<std::size_t>(wrapped(sector - load.sector))];
       const int b = wall_index(load);
-      for (const auto& [a, weight] : tooth.weights) {
-        result(i) += weight * (g(b + 1, a) * wall_force(j, 0) + g(b, a) * wall_force(j, 1));
-      }
+      moved += wall_force(j, 0) * g.col(b + 1) + wall_force(j, 1) * g.col(b);
     }
-  }
-  return result;
+  });
 }
 
 Eigen::MatrixX4d RingCompliance::section(std::span<const int> at_sectors, double z_mm,

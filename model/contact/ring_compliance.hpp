@@ -59,9 +59,14 @@ public:
   // Compliances, mm/N; `normal` columns are (radial, circumferential) components of a contact normal per station.
   // wall × wall: displacement along normal i from unit force along normal j.
   Eigen::MatrixXd wall_wall(std::span<const WallStation> stations, const Eigen::MatrixX2d& normal) const;
+  void wall_wall(std::span<const WallStation> stations, const Eigen::MatrixX2d& normal,
+                 Eigen::Ref<Eigen::MatrixXd> result) const;
   // wall × tooth, displacement along the normals from unit tooth loads (towards larger φ).
   Eigen::MatrixXd wall_tooth(std::span<const WallStation> stations, const Eigen::MatrixX2d& normal,
                              std::span<const ToothFunctional> teeth) const;
+  /// Both components of the same: lines 2i (radial) and 2i + 1 (circumferential) for station i.
+  Eigen::MatrixXd wall_components_of_teeth(std::span<const WallStation> stations,
+                                           std::span<const ToothFunctional> teeth) const;
   Eigen::MatrixXd tooth_tooth(std::span<const ToothFunctional> teeth) const;
 
   /// Displacements of stations, columns (w, v), from wall forces (columns radial, circumferential; N) and tooth forces
@@ -87,6 +92,8 @@ public:
                            const Eigen::VectorXd& tooth_force) const;
 
 private:
+  template <class Add>
+  Eigen::VectorXd measured(std::span<const ToothFunctional> teeth, const Add& add) const;
   int wrapped(int k) const {
     int w = k % period_;
     return w < 0 ? w + period_ : w;
@@ -101,7 +108,12 @@ private:
   std::vector<Eigen::MatrixXd> all_;       ///< [k]: folded, all functionals of the responses
   std::vector<Eigen::MatrixXd> wall_wall_; ///< [k]: (2 stations rows)², rows interpolated
   std::vector<Eigen::MatrixXd> wall_all_;  ///< [k]: response of interpolated wall points to all functionals
+  std::vector<Eigen::MatrixXd>
+      flank_wall_; ///< [k]: of all functionals of the flanks, drive then coast, to wall points
 };
+
+/// normal · (radial, circumferential) of each station, from wall_components_of_teeth().
+Eigen::MatrixXd along_normals(const Eigen::MatrixX2d& normal, const Eigen::MatrixXd& components);
 
 /// Lagrange weights on the (up to four) nodes nearest to x; exact where x is a node. nodes ascending, at least one.
 std::vector<std::pair<int, double>> lagrange_weights(std::span<const double> nodes, double x);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 namespace strainwave {
 
@@ -22,6 +23,63 @@ struct Asked {
   double value = 0.0;
 };
 
+/// What stands in the arrays over teeth and points of one side.
+struct Side {
+  std::vector<int> tooth;
+  std::vector<double> phi_deg, force_n, loaded_backlash_um, pressure_mpa;
+  PressurePeak peak_pressure;
+  PointResults points; ///< empty with one point a tooth
+};
+
+/// Drive or coast points of a load; `mirrored`: as seen in the coast direction.
+Side side_of(const std::vector<LoadedPoint>& points, const std::vector<double>& force_n,
+             const std::vector<double>& gap_um, bool mirrored, double phase,
+             FlankPressure& pressure) {
+  Side side;
+  const std::size_t n = points.size();
+  const std::vector<LineContact> contacts = pressure.of(points, force_n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = mirrored ? n - 1 - k : k; // ascending φ; the points of a tooth stand together
+    const LoadedPoint& point = points[i];
+    const int tooth = mirrored ? mirrored_tooth(point.tooth, phase) : point.tooth;
+    if (side.tooth.empty() || side.tooth.back() != tooth) {
+      side.tooth.push_back(tooth);
+      side.phi_deg.push_back((mirrored ? 0.0 - point.phi_rad : point.phi_rad) / degree); // 0 − 0 has no sign
+      side.force_n.push_back(0.0);
+      side.loaded_backlash_um.push_back(gap_um[i]);
+      side.pressure_mpa.push_back(0.0);
+    }
+    side.force_n.back() += force_n[i];
+    side.loaded_backlash_um.back() = std::min(side.loaded_backlash_um.back(), gap_um[i]);
+    side.pressure_mpa.back() = std::max(side.pressure_mpa.back(), contacts[i].pressure_mpa);
+    if (contacts[i].pressure_mpa > side.peak_pressure.mpa) {
+      side.peak_pressure = {.mpa = contacts[i].pressure_mpa,
+                            .tooth = tooth,
+                            .phi_deg = side.phi_deg.back(),
+                            .flank_radius_mm = point.flank_radius_mm,
+                            .z_mm = point.z_mm,
+                            .phase = phase,
+                            .edge = point.edge};
+    }
+    side.points.tooth.push_back(tooth);
+    side.points.flank_radius_mm.push_back(point.flank_radius_mm);
+    side.points.z_mm.push_back(point.z_mm);
+    side.points.force_n.push_back(force_n[i]);
+    side.points.gap_um.push_back(gap_um[i]);
+    side.points.contact_radius_mm.push_back(point.contact_radius_mm);
+    side.points.half_width_um.push_back(1e3 * contacts[i].half_width_mm);
+    side.points.pressure_mpa.push_back(contacts[i].pressure_mpa);
+    side.points.edge.push_back(point.edge ? 1 : 0);
+  }
+  if (side.tooth.size() == n)
+    side.points = {}; // one point a tooth: nothing to add
+  return side;
+}
+
+bool carries(const std::vector<double>& force_n) {
+  return std::any_of(force_n.begin(), force_n.end(), [](double force) { return force > 0.0; });
+}
+
 LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction direction, double phase,
                    FlankPressure& pressure) {
   LoadResult result;
@@ -33,45 +91,21 @@ LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction dir
   result.gap_correction_rotation_rad = load.gap_correction_rotation_rad;
   result.gap_correction_force_n = load.gap_correction_force_n;
   result.peak_phase = phase;
-  const bool coast = direction == Direction::coast;
-  const std::vector<LoadedPoint>& points = model.points();
-  const std::size_t n = points.size();
-  const std::vector<LineContact> contacts = pressure.of(points, load.force_n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t i = coast ? n - 1 - k : k; // ascending φ; the points of a tooth stand together
-    const LoadedPoint& point = points[i];
-    const int tooth = coast ? mirrored_tooth(point.tooth, phase) : point.tooth;
-    if (result.tooth.empty() || result.tooth.back() != tooth) {
-      result.tooth.push_back(tooth);
-      result.phi_deg.push_back((coast ? 0.0 - point.phi_rad : point.phi_rad) / degree); // 0 − 0 has no sign
-      result.force_n.push_back(0.0);
-      result.loaded_backlash_um.push_back(load.gap_um[i]);
-      result.pressure_mpa.push_back(0.0);
-    }
-    result.force_n.back() += load.force_n[i];
-    result.loaded_backlash_um.back() = std::min(result.loaded_backlash_um.back(), load.gap_um[i]);
-    result.pressure_mpa.back() = std::max(result.pressure_mpa.back(), contacts[i].pressure_mpa);
-    if (contacts[i].pressure_mpa > result.peak_pressure.mpa) {
-      result.peak_pressure = {.mpa = contacts[i].pressure_mpa,
-                              .tooth = tooth,
-                              .phi_deg = result.phi_deg.back(),
-                              .flank_radius_mm = point.flank_radius_mm,
-                              .z_mm = point.z_mm,
-                              .phase = phase,
-                              .edge = point.edge};
-    }
-    result.points.tooth.push_back(tooth);
-    result.points.flank_radius_mm.push_back(point.flank_radius_mm);
-    result.points.z_mm.push_back(point.z_mm);
-    result.points.contact_radius_mm.push_back(point.contact_radius_mm);
-    result.points.force_n.push_back(load.force_n[i]);
-    result.points.gap_um.push_back(load.gap_um[i]);
-    result.points.half_width_um.push_back(1e3 * contacts[i].half_width_mm);
-    result.points.pressure_mpa.push_back(contacts[i].pressure_mpa);
-    result.points.edge.push_back(point.edge ? 1 : 0);
+  const bool mirrored = direction == Direction::coast;
+  Side drive = side_of(model.points(), load.force_n, load.gap_um, mirrored, phase, pressure);
+  result.tooth = std::move(drive.tooth);
+  result.phi_deg = std::move(drive.phi_deg);
+  result.force_n = std::move(drive.force_n);
+  result.loaded_backlash_um = std::move(drive.loaded_backlash_um);
+  result.points = std::move(drive.points);
+  result.pressure_mpa = std::move(drive.pressure_mpa);
+  result.peak_pressure = drive.peak_pressure;
+  if (carries(load.coast_force_n)) {
+    Side coast = side_of(model.coast_points(), load.coast_force_n, load.coast_gap_um, mirrored, phase, pressure);
+    result.coast = {std::move(coast.tooth), std::move(coast.phi_deg), std::move(coast.force_n), 0.0,
+                    std::move(coast.points)};
+    result.coast.peak_force_n = *std::max_element(result.coast.force_n.begin(), result.coast.force_n.end());
   }
-  if (result.tooth.size() == n)
-    result.points = {}; // one point a tooth: nothing to add
   for (std::size_t i = 0; i < result.tooth.size(); ++i) {
     if (!(result.force_n[i] > 0.0))
       continue;
@@ -107,7 +141,10 @@ public:
           return failure;
       }
     }
-    return stiffness();
+    auto failure = stiffness();
+    if (!failure)
+      say_wedged();
+    return failure;
   }
 
 private:
@@ -119,7 +156,7 @@ private:
     if (load && asked.torque) {
       // relative to it, or to what the largest force of teeth and wall would make of it
       const double leverage = 1e-3 * gear_.flexspline.tip_radius_mm * load->certificate.force_scale;
-      const double scale = std::max(asked.value, leverage);
+      const double scale = std::max(std::abs(asked.value), leverage);
       const double error = std::abs(load->torque_nm - asked.value);
       if (gear_.contact.method == LoadMethod::event_path)
         raise(result_.certificate->equilibrium, scale > 0.0 ? error / scale : error);
@@ -138,9 +175,12 @@ private:
       const double phase = static_cast<double>(j) / gear_.load.phases;
       // the drive-side phase that mirrors it, to the same bits as phase n − j
       const int mirrored = direction == Direction::coast && j > 0 ? gear_.load.phases - j : j;
-      const auto model = source_(static_cast<double>(mirrored) / gear_.load.phases);
+      const double drive_phase = static_cast<double>(mirrored) / gear_.load.phases;
+      const auto model = source_(drive_phase);
       if (!model)
         return model.failure();
+      if (auto failure = rest(**model, drive_phase))
+        return failure;
       const auto load = solve(**model, asked);
       if (!load)
         return load.failure();
@@ -164,6 +204,44 @@ private:
     worst->peak_pressure = peak_pressure;
     result_.load.push_back(std::move(*worst));
     return std::nullopt;
+  }
+
+  /// A phase at rest, once: whether flanks overlap at every rotation is plain from the gaps, how hard from a solution.
+  std::optional<Failure> rest(const PhaseModel& model, double phase) {
+    if (!rested_.insert(phase).second)
+      return std::nullopt;
+    const double overlap = model.overlap_rad();
+    if (!(overlap > 0.0))
+      return std::nullopt;
+    const auto load = solve(model, {true, 0.0});
+    if (!load)
+      return load.failure();
+    WedgeResult wedge{.phase = phase,
+                      .rotation_rad = load->rotation_rad,
+                      .overlap_um = 1e3 * overlap * gear_.flexspline.tip_radius_mm};
+    const auto add = [&](const std::vector<LoadedPoint>& points, const std::vector<double>& force_n,
+                         const std::vector<double>& gap_um) {
+      int count = 0;
+      for (const double force : side_of(points, force_n, gap_um, false, phase).force_n) {
+        wedge.peak_force_n = std::max(wedge.peak_force_n, force);
+        wedge.sum_force_n += force;
+        count += force > 0.0;
+      }
+      return count;
+    };
+    wedge.drive_count = add(model.points(), load->force_n, load->gap_um);
+    wedge.coast_count = add(model.coast_points(), load->coast_force_n, load->coast_gap_um);
+    if (!result_.wedge || wedge.peak_force_n > result_.wedge->peak_force_n)
+      result_.wedge = wedge;
+    return std::nullopt;
+  }
+
+  void say_wedged() {
+    if (const auto& w = result_.wedge) {
+      say(fmt::format("drive and coast flanks touch at once: the gear is wedged, at rest with up to {:.3g} N on a flank "
+                      "({} drive and {} coast flanks carry)",
+                      w->peak_force_n, w->drive_count, w->coast_count));
+    }
   }
 
   /// One more sentence beside the numbers.
@@ -190,6 +268,8 @@ private:
     const auto model = source_(0.0);
     if (!model)
       return model.failure();
+    if (auto failure = rest(**model, 0.0))
+      return failure;
     const auto at_rated = solve(**model, {true, rated});
     if (!at_rated)
       return at_rated.failure();
@@ -199,8 +279,7 @@ private:
     StiffnessResult s;
     s.take_up_rad = (*model)->take_up_rad();
     s.wind_up_rad = at_rated->rotation_rad - s.take_up_rad;
-    if (!(s.wind_up_rad >
-          0.0)) { // interference at rest holds the rated torque, or it is nothing beside rounding
+    if (!(s.wind_up_rad > 0.0)) { // nothing beside rounding
       say(fmt::format(
           "no torsional stiffness: the rated torque {} N·m is reached at {:.6g} rad, take-up is {:.6g} rad",
           rated, at_rated->rotation_rad, s.take_up_rad));
@@ -208,13 +287,6 @@ private:
     }
     s.secant_nm_per_rad = rated / s.wind_up_rad;
     s.lost_motion_arcmin = 2.0 * at_small->rotation_rad / (60.0 * arcsec);
-    if (const double overlap = (*model)->least_take_up_rad(); overlap < 0.0) {
-      // Between interfering flanks both sides carry at once; this model has the drive flanks alone.
-      s.lost_motion_arcmin = std::numeric_limits<double>::quiet_NaN();
-      say(fmt::format("flanks interfere before any load (by up to {:.3g} rad of rotation): the coast flanks, which "
-                      "then touch too, are not part of this solution, and there is no lost motion to state",
-                      -overlap));
-    }
     result_.stiffness = s;
     return std::nullopt;
   }
@@ -250,6 +322,7 @@ private:
   ForwardResult& result_;
   ContactSolver solver_;
   FlankPressure pressure_;
+  std::set<double> rested_; ///< drive-side phases whose rest is known
 };
 
 } // namespace

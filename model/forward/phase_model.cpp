@@ -160,6 +160,7 @@ std::vector<int> PhaseModel::started_selection(const ContactStart& start) {
     return {};
   }
   start_set_.insert(start_set_.end(), start.wall.begin(), start.wall.end());
+  started_ = true;
   return index;
 }
 
@@ -190,8 +191,11 @@ Outcome<PhaseLoad> PhaseModel::solve(Control control, double value, ContactSolve
   Selection grown;
   const Selection* selection = &first_;
   ActiveSet warm = start_set_;
+  // A selection that is likely to grow grows on the linearised disc gap first.
+  bool exact = started_ || contact_.fidelity == Fidelity::linear ||
+               contact_.disc_gap == DiscGap::linearised || first_.index.size() >= drive_.size();
   for (int round = 1;; ++round) {
-    auto solved = solve_selection(*selection, control, value, warm, solver);
+    auto solved = solve_selection(*selection, control, value, warm, exact, solver);
     if (!solved)
       return solved.failure();
 
@@ -224,6 +228,11 @@ Outcome<PhaseLoad> PhaseModel::solve(Control control, double value, ContactSolve
       index.push_back(static_cast<int>(i));
       set.push_back(inside[i] != 1);
     }
+    if (index.size() == selection->index.size() && !exact) {
+      exact = true;
+      warm = solved->state.active;
+      continue;
+    }
     if (index.size() == selection->index.size()) {
       const auto middle = static_cast<std::ptrdiff_t>(drive_.size());
       load.force_n.assign(force.begin(), force.begin() + middle);
@@ -242,7 +251,7 @@ Outcome<PhaseLoad> PhaseModel::solve(Control control, double value, ContactSolve
 }
 
 Outcome<PhaseModel::Solved> PhaseModel::solve_selection(const Selection& selection, Control control,
-                                                        double value, const ActiveSet& warm,
+                                                        double value, const ActiveSet& warm, bool exact,
                                                         ContactSolver& solver) const {
   const ContactProblem& problem = selection.load.problem;
   Solved solved;
@@ -263,21 +272,21 @@ Outcome<PhaseModel::Solved> PhaseModel::solve_selection(const Selection& selecti
   PhaseLoad& load = solved.load;
   if (contact_.fidelity == Fidelity::linear) {
     load.certificate = certify(problem, solved.state);
-  } else if (contact_.disc_gap == DiscGap::linearised) {
+  } else if (contact_.disc_gap == DiscGap::linearised || !exact) {
     load.certificate = certify(problem, solved.state);
     const Eigen::VectorXd wall = solved.state.force.tail(assembled_->force_n.size());
     solved.wall_force = assembled_->normal.array().colwise() * wall.array();
   } else {
-    auto exact =
+    auto corrected =
         correct_to_exact_gap(ring_, surface_, *assembled_, selection.load, solved.state, control, solver);
-    if (!exact)
-      return exact.failure();
-    load.certificate = exact->certificate;
-    load.exact_gap_residual_um = 1e3 * exact->residual_mm;
-    load.gap_correction_rotation_rad = exact->correction_rotation_rad;
-    load.gap_correction_force_n = exact->correction_force_n;
-    solved.wall_force = exact->wall_force;
-    solved.state = exact->state;
+    if (!corrected)
+      return corrected.failure();
+    load.certificate = corrected->certificate;
+    load.exact_gap_residual_um = 1e3 * corrected->residual_mm;
+    load.gap_correction_rotation_rad = corrected->correction_rotation_rad;
+    load.gap_correction_force_n = corrected->correction_force_n;
+    solved.wall_force = corrected->wall_force;
+    solved.state = corrected->state;
   }
   if (solved.wall_force.size() > 0)
     load.disc_force_n = wall_resultant(assembled_->stations, solved.wall_force)(0);

@@ -103,7 +103,7 @@ private:
   ContactStart start_of(const Selection& selection, const Solved& solved) const;
   Outcome<PhaseLoad> solve(Control control, double value, ContactSolver& solver) const;
   Outcome<Solved> solve_selection(const Selection& selection, Control control, double value,
-                                  const ActiveSet& warm, ContactSolver& solver) const;
+                                  const ActiveSet& warm, bool exact, ContactSolver& solver) const;
   /// Gap along F of all points from the forces of a solved selection, mm.
   Eigen::VectorXd gaps(const Selection& selection, const Solved& solved) const;
 
@@ -114,7 +114,8 @@ private:
   std::vector<LoadedPoint> drive_, coast_;
   std::vector<LoadedPoint> points_;          ///< drive, then coast
   std::vector<ToothFunctional> functionals_; ///< of points_
-  ActiveSet start_set_; ///< first guess of the first selection's closed set, wall included
+  ActiveSet start_set_;  ///< first guess of the first selection's closed set, wall included
+  bool started_ = false; ///< from a ContactStart
   Selection first_;
 };
 

@@ -86,6 +86,15 @@ struct PressurePeak {
   bool edge = false;
 };
 
+/// Forces on the coast flanks, with those of the drive flanks in balance with the torque. Empty when none carries.
+struct CoastResults {
+  std::vector<int> tooth; ///< every tooth whose coast flank is a candidate, ascending φ (window mirrored)
+  std::vector<double> phi_deg;
+  std::vector<double> force_n;
+  double peak_force_n = 0.0;
+  PointResults points; ///< empty with one point a tooth
+};
+
 /// Tooth forces at one meshing phase, every tooth that can carry load.
 struct PhaseForces {
   double phase = 0.0;
@@ -118,6 +127,19 @@ struct LoadResult {
   double gap_correction_force_n = 0.0;
   std::vector<PhaseForces> phases; ///< all of them, the one of the arrays above included
   PointResults points;             ///< empty with one point a tooth
+  CoastResults coast;
+};
+
+/// A gear whose drive and coast flanks overlap at every rotation: its rest, at no torque. Of the phase with the largest
+/// force on one flank; forces of one lobe when both are alike.
+struct WedgeResult {
+  double phase = 0.0;
+  double rotation_rad = 0.0; ///< at rest
+  double overlap_um = 0.0;   ///< of rigid flanks, both sides together, along the arc at the flexspline's tip radius
+  double peak_force_n = 0.0; ///< largest sum on one flank of a tooth
+  double sum_force_n = 0.0;  ///< of all flanks
+  int drive_count = 0;       ///< teeth that carry on the drive flank
+  int coast_count = 0;
 };
 
 struct StiffnessResult {
@@ -161,6 +183,7 @@ struct ForwardResult {
   std::optional<AssemblyResult> assembly;
   std::optional<ComplianceResult> compliance;
   std::vector<LoadResult> load;
+  std::optional<WedgeResult> wedge; ///< absent: free at some rotation, at every phase looked at
   std::optional<StiffnessResult> stiffness;
   std::optional<Certificate> certificate;
   std::vector<Stage> stages;

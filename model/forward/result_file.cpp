@@ -55,6 +55,21 @@ void text(hid_t file, const char* name, std::string_view value) {
   Group::check(H5LTmake_dataset_string(file, name, std::string(value).c_str()));
 }
 
+void put_points(const PointResults& from, hid_t parent) {
+  if (from.tooth.empty())
+    return;
+  Group points(parent, "points");
+  points.put("tooth", from.tooth);
+  points.put("flank_radius", "mm", from.flank_radius_mm);
+  points.put("z", "mm", from.z_mm);
+  points.put("contact_radius", "mm", from.contact_radius_mm);
+  points.put("force", "N", from.force_n);
+  points.put("gap", "um", from.gap_um);
+  points.put("half_width", "um", from.half_width_um);
+  points.put("pressure", "MPa", from.pressure_mpa);
+  points.put("edge", from.edge);
+}
+
 void put_load(const LoadResult& load, Group& group) {
   group.put("rotation", "rad", load.rotation_rad);
   group.put("torque", "N.m", load.torque_nm);
@@ -75,17 +90,14 @@ void put_load(const LoadResult& load, Group& group) {
   group.put("peak_pressure_phase", "1", load.peak_pressure.phase);
   group.put("tangent_stiffness", "N.m/rad", load.tangent_stiffness_nm_per_rad);
   group.put("disc_force", "N", load.disc_force_n);
-  if (!load.points.tooth.empty()) {
-    Group points(group.id(), "points");
-    points.put("tooth", load.points.tooth);
-    points.put("flank_radius", "mm", load.points.flank_radius_mm);
-    points.put("z", "mm", load.points.z_mm);
-    points.put("contact_radius", "mm", load.points.contact_radius_mm);
-    points.put("force", "N", load.points.force_n);
-    points.put("gap", "um", load.points.gap_um);
-    points.put("half_width", "um", load.points.half_width_um);
-    points.put("pressure", "MPa", load.points.pressure_mpa);
-    points.put("edge", load.points.edge);
+  put_points(load.points, group.id());
+  if (const CoastResults& coast = load.coast; !coast.tooth.empty()) {
+    Group side(group.id(), "coast_flank");
+    side.put("tooth", coast.tooth);
+    side.put("phi", "deg", coast.phi_deg);
+    side.put("force", "N", coast.force_n);
+    side.put("peak_force", "N", coast.peak_force_n);
+    put_points(coast.points, side.id());
   }
   if (load.transmission_error_arcsec)
     group.put("transmission_error", "arcsec", *load.transmission_error_arcsec);
@@ -142,6 +154,16 @@ void put_all(const ForwardResult& result, hid_t file) {
       Group group(loads.id(), fmt::format("{:04}", i));
       put_load(result.load[i], group);
     }
+  }
+  if (const auto& w = result.wedge) {
+    Group group(file, "wedge");
+    group.put("phase", "1", w->phase);
+    group.put("rotation", "rad", w->rotation_rad);
+    group.put("overlap", "um", w->overlap_um);
+    group.put("peak_force", "N", w->peak_force_n);
+    group.put("sum_force", "N", w->sum_force_n);
+    group.put("drive_count", "1", w->drive_count);
+    group.put("coast_count", "1", w->coast_count);
   }
   if (const auto& s = result.stiffness) {
     Group group(file, "stiffness");

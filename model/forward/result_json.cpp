@@ -35,6 +35,18 @@ Json numbers(const std::vector<double>& values) {
   return array;
 }
 
+Json points_json(const PointResults& points) {
+  return {{"tooth", points.tooth},
+          {"height_mm", numbers(points.flank_radius_mm)},
+          {"z_mm", numbers(points.z_mm)},
+          {"contact_radius_mm", numbers(points.contact_radius_mm)},
+          {"force_n", numbers(points.force_n)},
+          {"gap_um", numbers(points.gap_um)},
+          {"half_width_um", numbers(points.half_width_um)},
+          {"pressure_mpa", numbers(points.pressure_mpa)},
+          {"edge", points.edge}};
+}
+
 Json load_json(const LoadResult& load) {
   Json json;
   json["direction"] = choice_name(load.direction);
@@ -65,16 +77,15 @@ Json load_json(const LoadResult& load) {
     json["transmission_error_arcsec"] = *load.transmission_error_arcsec;
   json["gap_correction"] = {{"rotation_rad", load.gap_correction_rotation_rad},
                             {"force_n", load.gap_correction_force_n}};
-  if (!load.points.tooth.empty()) {
-    json["points"] = {{"tooth", load.points.tooth},
-                      {"height_mm", numbers(load.points.flank_radius_mm)},
-                      {"z_mm", numbers(load.points.z_mm)},
-                      {"contact_radius_mm", numbers(load.points.contact_radius_mm)},
-                      {"force_n", numbers(load.points.force_n)},
-                      {"gap_um", numbers(load.points.gap_um)},
-                      {"half_width_um", numbers(load.points.half_width_um)},
-                      {"pressure_mpa", numbers(load.points.pressure_mpa)},
-                      {"edge", load.points.edge}};
+  if (!load.points.tooth.empty())
+    json["points"] = points_json(load.points);
+  if (const CoastResults& coast = load.coast; !coast.tooth.empty()) {
+    json["coast"] = {{"tooth", coast.tooth},
+                     {"phi_deg", numbers(coast.phi_deg)},
+                     {"force_n", numbers(coast.force_n)},
+                     {"peak_force_n", coast.peak_force_n}};
+    if (!coast.points.tooth.empty())
+      json["coast"]["points"] = points_json(coast.points);
   }
   return json;
 }
@@ -132,6 +143,17 @@ Json result_json(const ForwardResult& result) {
     json["load"] = Json::array();
     for (const LoadResult& load : result.load)
       json["load"].push_back(load_json(load));
+  }
+  if (const auto& w = result.wedge) {
+    json["wedge"] = {{"phase", w->phase},
+                     {"rotation_rad", w->rotation_rad},
+                     {"overlap_um", w->overlap_um},
+                     {"peak_force_n", w->peak_force_n},
+                     {"sum_force_n", w->sum_force_n},
+                     {"drive_count", w->drive_count},
+                     {"coast_count", w->coast_count}};
+  } else if (!result.load.empty()) {
+    json["wedge"] = nullptr;
   }
   if (const auto& s = result.stiffness) {
     json["stiffness"] = {{"secant_nm_per_rad", number(s->secant_nm_per_rad)},

@@ -97,6 +97,36 @@ TEST_F(SeedFunctionals, stations_between_teeth_span_two_sectors) {
   EXPECT_FALSE(wall(1, 3, UnitResponses::radial).next.dof.empty());
 }
 
+TEST(CoastFunctionals, responses_of_both_flanks_are_those_of_a_cup_that_is_its_own_mirror_image) {
+  ResponseRequest request = testing_bodies::broad_toothed_cup();
+  request.flank_heights = 3;
+  request.face_slices = 2;
+  request.estimate = false;
+  const UnitResponses drive_alone = unit_responses(request, 1).value();
+  request.both_flanks = true;
+  const UnitResponses both = unit_responses(request, 1).value();
+  ASSERT_EQ(both.count(), drive_alone.count() + drive_alone.flank_count());
+  double scale = 0.0;
+  for (const double g : both.data)
+    scale = std::max(scale, std::fabs(g));
+  const auto coast = [&](int a) { return both.coast(0, 0, 0) + a; };
+  const auto turned = [](int a) { return a % 2 == UnitResponses::circumferential ? -1.0 : 1.0; };
+  for (int k = 0; k < both.sectors; ++k)
+    for (int a = 0; a < both.flank_count(); ++a) {
+      for (int b = 0; b < both.flank_count(); ++b) {
+        EXPECT_NEAR(both(k, a, b), drive_alone(k, a, b), 1e-12 * scale);
+        EXPECT_NEAR(both(k, coast(a), coast(b)), turned(a) * turned(b) * both(-k, a, b), 1e-12 * scale);
+        EXPECT_NEAR(both(k, coast(a), b), turned(a) * turned(b) * both(-k, a, coast(b)), 1e-12 * scale);
+      }
+      // wall under the tooth centre (station 0), whose mirror image is that of sector −k
+      for (int row = 0; row < static_cast<int>(both.wall_z_mm.size()); ++row)
+        for (int direction = 0; direction < 2; ++direction) {
+          const int w = both.wall(0, row, direction);
+          EXPECT_NEAR(both(k, w, coast(a)), turned(direction) * turned(a) * both(-k, w, a), 1e-12 * scale);
+        }
+    }
+}
+
 TEST_F(SeedFunctionals, section_functionals_measure_a_known_displacement_field) {
   // u = (a r + b z) e_r + (c r + d r²) e_φ + (e + f r) e_z: at the neutral radius r = 14.006 under the tooth.
   const double a = 1e-4, b = 2e-4, c = 3e-4, d = 4e-5, e = 5e-3, f = 6e-4;
