@@ -37,7 +37,9 @@ ResponseRequest response_request(const Gear& gear) {
   } else {
     request.flank_heights = std::min(request.flank_heights, 2 * gear.mesh.tooth_height + 1); // rows of nodes
   }
-  request.mesh.along_face = std::max(gear.mesh.along_face, gear.contact.face_slices / 2);
+  // whole multiples, so that disc edges that stood on a row of nodes still do: between rows the wall is held softer there
+  const int rows = gear.mesh.along_face;
+  request.mesh.along_face = rows * std::max(1, (gear.contact.face_slices / 2 + rows - 1) / rows);
   return request;
 }
 
@@ -64,11 +66,11 @@ std::optional<Failure> find_unavailable(const Gear& gear) {
                                   gear.wave_generator.shape == WaveGeneratorShape::two_disc_exact)) {
     return refuse("contact.reference_section_mm shifts the two discs; this wave generator has none");
   }
-  if (gear.wave_generator.disc_taper_um != 0.0 &&
-      gear.wave_generator.shape != WaveGeneratorShape::two_disc &&
+  if (gear.wave_generator.disc_taper_um != 0.0 && gear.wave_generator.shape != WaveGeneratorShape::two_disc &&
       gear.wave_generator.shape != WaveGeneratorShape::two_disc_exact) {
-    return refuse(fmt::format("wave_generator.disc_taper_um {} µm is a cone of the two discs; this wave generator has none",
-                              gear.wave_generator.disc_taper_um));
+    return refuse(fmt::format(
+        "wave_generator.disc_taper_um {} µm is a cone of the two discs; this wave generator has none",
+        gear.wave_generator.disc_taper_um));
   }
   if (gear.wave_generator.shape == WaveGeneratorShape::four_force && c.fidelity != Fidelity::linear) {
     return refuse(
