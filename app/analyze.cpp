@@ -2,6 +2,7 @@
 #include "app/output.hpp"
 #include "app/result_table.hpp"
 #include "model/export/figures.hpp"
+#include "model/export/flank_figures.hpp"
 #include "model/forward/forward.hpp"
 #include "model/forward/result_file.hpp"
 #include "model/forward/result_json.hpp"
@@ -36,6 +37,8 @@ void draw_figures(const ForwardResult& result, Gear gear, Want want, ForwardMode
       figures.push_back(assembled_shape_figure(states->states.front()));
   }
   for (Figure& figure : load_figures(result))
+    figures.push_back(std::move(figure));
+  for (Figure& figure : flank_figures(result, gear))
     figures.push_back(std::move(figure));
   if (const std::vector<double> rotations = sweep_rotations_rad(result); !rotations.empty()) {
     gear.load.torque_nm.clear();

@@ -2,10 +2,12 @@
 // The figures of a forward result:
 //   initial-backlash   backlash of every tooth over φ, drive and coast flank
 //   meshing-forces     force of every tooth over φ, one curve for each load
+//   contact-pressure   largest contact pressure of every tooth over φ
 //   loaded-backlash    what is left of the backlash over φ under each load
 //   torque-rotation    torque over rotation, with the loads asked for
 //   assembled-shape    radial displacement of the inner wall and its contact force over φ, one curve for each
 //                      row across the discs
+// Maps over flank and face: flank_figures.hpp.
 // Figures whose numbers the result does not have are left out.
 
 #include "model/export/figure.hpp"
@@ -18,7 +20,7 @@ namespace strainwave {
 
 std::vector<Figure> backlash_figures(const ForwardResult& result);
 
-/// Meshing forces and loaded backlash.
+/// Meshing forces, loaded backlash, contact pressure.
 std::vector<Figure> load_figures(const ForwardResult& result);
 
 /// Rotations, equidistant from 0 to a little past the largest of the result's loads, at which

@@ -103,12 +103,12 @@ std::vector<LoadedPoint> flank_points(const Gear& gear, const UnitResponses& res
       const FlankPair& pair = flanks[slice];
       const Pose pose = pose_source(teeth.tooth[i], own_lobe, static_cast<int>(slice));
       const double space = own_lobe * ratio;
-      const auto add_contact = [&](const ToothBacklash& contact, int level) {
+      const auto add_contact = [&](const ToothBacklash& contact, double flank_height, int level) {
         points.push_back({.tooth = teeth.tooth[i],
                           .phi_rad = teeth.phi_rad[i],
                           .backlash_mm = contact.backlash_mm,
                           .contact_radius_mm = contact.contact_radius_mm,
-                          .flank_radius_mm = fs.root_radius_mm + contact.flank_height * height,
+                          .flank_radius_mm = fs.root_radius_mm + flank_height * height,
                           .pressure_angle_rad = normal ? contact_pressure_angle(gear, pose, contact) : 0.0,
                           .slice = flanks.size() > 1 ? static_cast<int>(slice) : -1,
                           .z_mm = places[slice],
@@ -119,19 +119,20 @@ std::vector<LoadedPoint> flank_points(const Gear& gear, const UnitResponses& res
       if (gear.contact.flank_points == 1) { // the source text's model: the point of least gap
         const ToothBacklash contact = pair.drive(pose, space);
         if (contact.overlap)
-          add_contact(contact, 0);
+          add_contact(contact, contact.flank_height, 0);
         continue;
       }
       const std::vector<GapPoint> ends = gap_profile(pair, pose, space, 2);
       if (ends.empty())
         continue;
       const auto add = [&](const GapPoint& at, ContactPlace place, int level) {
+        const double of_load = place == ContactPlace::flexspline_tip ? 1.0 : at.flank_height;
         add_contact({.overlap = true,
                      .backlash_mm = at.gap_mm,
                      .contact_radius_mm = at.radius_mm,
                      .flank_height = at.flank_height,
                      .place = place},
-                    level);
+                    of_load, level);
       };
       const double edge =
           ends.front().flank_height; // the circular spline's tip edge, or the flexspline's root
@@ -139,7 +140,8 @@ std::vector<LoadedPoint> flank_points(const Gear& gear, const UnitResponses& res
           -1);
       for (std::size_t level = 0; level < responses.flank_radius_mm.size(); ++level) {
         const bool last = level + 1 == responses.flank_radius_mm.size();
-        const double h = last ? 1.0 : static_cast<double>(level) * step;
+        // the tip's hat is a half one: what it measures is the displacement at its centroid
+        const double h = last ? 1.0 - step / 3.0 : static_cast<double>(level) * step;
         if (h < edge + 0.5 * step)
           continue;
         if (const auto at = gap_at_height(pair, pose, space, h)) {

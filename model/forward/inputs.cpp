@@ -38,7 +38,9 @@ ResponseRequest response_request(const Gear& gear) {
   } else {
     request.flank_heights = std::min(request.flank_heights, 2 * gear.mesh.tooth_height + 1); // rows of nodes
   }
-  request.mesh.along_face = std::max(gear.mesh.along_face, gear.contact.face_slices / 2);
+  // whole multiples, so that disc edges that stood on a row of nodes still do: between rows the wall is held softer there
+  const int rows = gear.mesh.along_face;
+  request.mesh.along_face = rows * std::max(1, (gear.contact.face_slices / 2 + rows - 1) / rows);
   return request;
 }
 

@@ -52,7 +52,7 @@ TEST(Figures, data_are_the_numbers_of_the_result) {
   ASSERT_EQ(result.status, Status::ok) << result.message;
   ASSERT_EQ(result.load.size(), 4u);
   const std::vector<Figure> figures = load_figures(result);
-  ASSERT_EQ(figures.size(), 2u);
+  ASSERT_EQ(figures.size(), 3u);
   const auto blocks = blocks_of(figures[0].data);
   ASSERT_EQ(blocks.size(), 4u);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -71,7 +71,7 @@ TEST(Figures, gnuplot_draws_every_one_of_them) {
   ForwardModel model({.disk_cache = false});
   const ForwardResult result = model.analyze(gear);
   const std::vector<Figure> figures = all_figures(gear, result, model);
-  EXPECT_EQ(figures.size(), 5u);
+  EXPECT_EQ(figures.size(), 6u);
   const testing_export::Folder folder;
   const Drawn drawn = draw(figures, folder / "plots");
   EXPECT_TRUE(drawn.complete) << drawn.note;
