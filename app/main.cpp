@@ -29,6 +29,7 @@ ExitCode read_and_run(int argc, char** argv) {
   add_check(app, chosen);
   add_schema(app, chosen);
   add_study(app, chosen);
+  add_check_gradient(app, chosen);
   add_eval(app, chosen);
   try {
     app.parse(argc, argv);

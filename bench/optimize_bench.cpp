@@ -7,6 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <string>
 #include <vector>
 
 namespace strainwave {
@@ -40,6 +41,70 @@ void evaluate_new_design(benchmark::State& state) {
   }
 }
 BENCHMARK(evaluate_new_design)->ArgsProduct({{1, 4}, {0, 1}})->Unit(benchmark::kMillisecond);
+
+/// Ten numbers of the flanks, and u0 with e in the second place of range(1).
+DesignSpace flank_design(bool with_u0, bool lead) {
+  const std::string fs = "flank_modification.flexspline.", cs = "flank_modification.circular_spline.";
+  std::vector<DesignVariable> variables;
+  const auto add = [&](const std::string& path, double upper, double start) {
+    variables.push_back(
+        {.path = NumberPath(path), .lower = 0.0, .upper = upper, .start = start, .links = {}});
+  };
+  add(fs + "tip_relief_um", 15.0, 2.0);
+  add(fs + "tip_relief_start", 0.9, 0.55);
+  add(fs + "root_relief_um", 15.0, 1.0);
+  add(fs + "root_relief_start", 0.9, 0.35);
+  add(fs + "crowning_um", 5.0, 0.5);
+  add(fs + "slope_um", 5.0, 0.5);
+  add(lead ? fs + "lead_taper_um" : cs + "tip_relief_start", lead ? 15.0 : 0.9, lead ? 2.0 : 0.55);
+  add(lead ? fs + "lead_crowning_um" : cs + "crowning_um", 10.0, 1.0);
+  add(cs + "tip_relief_um", 5.0, 0.5);
+  add("circular_spline.profile_shift", 3.0, lead ? 2.3 : 2.19);
+  if (with_u0) {
+    variables.push_back({.path = NumberPath("wave_generator.max_radial_deformation_mm"),
+                         .lower = 0.19,
+                         .upper = 0.21,
+                         .start = 0.2,
+                         .links = {}});
+    variables.push_back({.path = NumberPath("wave_generator.eccentricity_mm"),
+                         .lower = 0.5,
+                         .upper = 0.7,
+                         .start = 0.6,
+                         .links = {}});
+  }
+  return DesignSpace(std::move(variables));
+}
+
+/// range(0): 0 one point per tooth linear, 1 the same unilateral, 2 nine heights, 3 nine heights and five slices of the coned
+/// cup; range(1): u0 and e free too; range(2): with its gradient. Four phases, every evaluation a new design.
+void evaluate_design(benchmark::State& state) {
+  const auto model = state.range(0);
+  const bool with_u0 = state.range(1) != 0;
+  Gear gear = seed_gear();
+  gear.contact.fidelity = model == 0 ? Fidelity::linear : Fidelity::unilateral;
+  gear.contact.flank_points = model >= 2 ? 9 : 1;
+  gear.contact.face_slices = model == 3 ? 5 : 1;
+  gear.contact.gaps = model == 3 ? GapModel::assembled : GapModel::kinematic;
+  const DesignSpace design = flank_design(with_u0, model == 3);
+  const Load load{.torque_nm = {7.0}, .rotation_rad = {}, .phases = 4};
+  GearEvaluator evaluator(gear, design, {load});
+  std::vector<double> x = design.start();
+  (void)evaluator.evaluate(x);
+  for (auto _ : state) {
+    x[0] += 1e-4;
+    if (with_u0)
+      x[10] -= 1e-7;
+    const Evaluation e = evaluator.evaluate(x);
+    if (!e.ok)
+      state.SkipWithError(e.message.c_str());
+    if (state.range(2))
+      benchmark::DoNotOptimize(evaluator.gradient(x));
+  }
+}
+BENCHMARK(evaluate_design)
+    ->ArgNames({"model", "u0", "gradient"})
+    ->ArgsProduct({{0, 1, 2, 3}, {0, 1}, {0, 1}})
+    ->Unit(benchmark::kMillisecond);
 
 struct Nothing : Evaluator {
   std::span<const Response> responses() const override { return gear_responses(); }

@@ -44,6 +44,15 @@ public:
 
   /// Gap at the wall point of material angle φ and axial position z, displaced by w (outwards) and v (towards larger φ).
   WallGap gap(double phi_rad, double z_mm, double w_mm, double v_mm) const;
+  /// Curvature of the surface of equal gap there, 1/mm: a displacement along the tangent turns the normal by so much.
+  double curvature(double phi_rad, double z_mm, double w_mm, double v_mm) const;
+  /// Change of gap [mm] and turn of the normal towards the tangent [rad] at a held wall point, per mm of the discs'
+  /// eccentricity and neutral radius and per unit of taper_per_mm. Zero for cams.
+  struct DiscSlopes {
+    double gap_by_eccentricity = 0.0, turn_by_eccentricity = 0.0;
+    double gap_by_radius = 0.0, gap_by_taper = 0.0;
+  };
+  DiscSlopes disc_slopes(double phi_rad, double z_mm, double w_mm, double v_mm) const;
   double inner_radius_mm() const { return inner_radius_; } ///< of the undeformed wall
 
 private:

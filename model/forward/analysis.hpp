@@ -5,6 +5,7 @@
 #include "model/forward/contact_forces.hpp"
 #include "model/forward/flank_points.hpp"
 #include "model/forward/forward.hpp"
+#include "model/forward/gradient.hpp"
 #include "model/forward/load_cases.hpp"
 #include "model/forward/phase_problem.hpp"
 #include "model/forward/stage_memory.hpp"
@@ -66,6 +67,10 @@ public:
   }
 
   ForwardResult run();
+  /// Before run(): keep the solved loads for gradient().
+  void keep_solution() { keep_ = true; }
+  /// After a run() that kept its solution and came to its end.
+  ForwardGradient gradient(std::span<const std::string> parameters);
   Outcome<ContactStates> contact_states();
   Outcome<std::vector<PhaseProblem>> phase_problems(bool with_load);
 
@@ -92,10 +97,13 @@ private:
   Outcome<std::shared_ptr<const PhaseModel>> phase_model(double phase);
   std::optional<Failure> load();
 
+  /// The assembly at a phase that has been met, for gradient().
+  std::shared_ptr<const AssembledState> known_assembly(double phase);
+
   static constexpr std::size_t most_phases_kept = 64;
 
   ForwardModel::State& state_;
-  const Gear& gear_;
+  const Gear gear_;
   Want want_;
   ForwardResult result_;
   std::shared_ptr<const Outcome<NeutralCurve>> curve_;
@@ -109,6 +117,8 @@ private:
   std::vector<FlankPair> flanks_;                       ///< one for each slice
   std::map<double, std::vector<LoadedPoint>> points_of_; ///< drive, by phase
   std::map<double, std::shared_ptr<const PhaseModel>> phases_;
+  bool keep_ = false;
+  std::vector<SolvedLoad> solved_;
 };
 
 } // namespace strainwave

@@ -87,6 +87,11 @@ double face_coordinate(const Flexspline& fs, double z_mm) {
   return (z_mm - middle) / (0.5 * fs.face_width_mm);
 }
 
+double height_of_level(int level, int heights) {
+  const double step = 1.0 / (heights - 1);
+  return level + 1 == heights ? 1.0 - step / 3.0 : level * step;
+}
+
 std::vector<LoadedPoint> flank_points(const Gear& gear, const UnitResponses& responses, const Backlash& teeth,
                                       const std::vector<FlankPair>& flanks, const PoseSource& pose_source) {
   const Flexspline& fs = gear.flexspline;
@@ -140,8 +145,7 @@ std::vector<LoadedPoint> flank_points(const Gear& gear, const UnitResponses& res
           -1);
       for (std::size_t level = 0; level < responses.flank_radius_mm.size(); ++level) {
         const bool last = level + 1 == responses.flank_radius_mm.size();
-        // the tip's hat is a half one: what it measures is the displacement at its centroid
-        const double h = last ? 1.0 - step / 3.0 : static_cast<double>(level) * step;
+        const double h = height_of_level(static_cast<int>(level), static_cast<int>(responses.flank_radius_mm.size()));
         if (h < edge + 0.5 * step)
           continue;
         if (const auto at = gap_at_height(pair, pose, space, h)) {

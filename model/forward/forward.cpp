@@ -40,7 +40,7 @@ ForwardResult Analysis::run() {
     result_.status = failure->status;
     result_.message = failure->message;
   }
-  return std::move(result_);
+  return keep_ ? result_ : std::move(result_);
 }
 
 Outcome<ContactStates> Analysis::contact_states() {
@@ -294,7 +294,8 @@ Outcome<std::shared_ptr<const PhaseModel>> Analysis::phase_model(double phase) {
 std::optional<Failure> Analysis::load() {
   StageClock clock(result_, "load");
   const PhaseSource source = [&](double phase) { return phase_model(phase); };
-  if (auto failure = solve_load_cases(gear_, source, result_))
+  const LoadObserver keep = [this](const SolvedLoad& solved) { solved_.push_back(solved); };
+  if (auto failure = solve_load_cases(gear_, source, result_, keep_ ? keep : LoadObserver()))
     return failure;
   clock.done(StageStatus::computed);
   if (const auto flaw = result_.certificate->find_flaw()) {

@@ -17,8 +17,9 @@
 
 namespace strainwave {
 
-struct ContactStates; // contact_forces.hpp
-struct PhaseProblem;  // phase_problem.hpp
+struct ContactStates;  // contact_forces.hpp
+class ForwardSolution; // gradient.hpp
+struct PhaseProblem;   // phase_problem.hpp
 
 struct ForwardOptions {
   bool disk_cache = true; ///< unit responses on disk, in the XDG cache directory
@@ -38,6 +39,9 @@ public:
   /// Never throws for a gear that cannot be computed: status and message say why. Throws std::system_error and
   /// std::bad_alloc for disk and memory, FieldError for a faulty wave_generator.table_file.
   ForwardResult analyze(const Gear& gear, Want want = Want::load);
+
+  /// The same result for Want::load; where its status is ok, `solution` is what its derivatives can be had from.
+  ForwardResult analyze(const Gear& gear, std::shared_ptr<const ForwardSolution>& solution);
 
   /// The contact forces of the assembled cup and of every load of the gear, at phase 0 in the drive direction; reuses
   /// what analyses have computed.

@@ -124,8 +124,8 @@ LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction dir
 
 class Cases {
 public:
-  Cases(const Gear& gear, const PhaseSource& source, ForwardResult& result)
-      : gear_(gear), source_(source), result_(result), pressure_(gear) {}
+  Cases(const Gear& gear, const PhaseSource& source, ForwardResult& result, const LoadObserver& observer)
+      : gear_(gear), source_(source), result_(result), observer_(observer), pressure_(gear) {}
 
   std::optional<Failure> run() {
     std::vector<Asked> asked;
@@ -184,6 +184,10 @@ private:
       const auto load = solve(**model, asked);
       if (!load)
         return load.failure();
+      if (observer_)
+        observer_({SolvedLoad::Use::load_case, result_.load.size(), direction,
+                   static_cast<double>(mirrored) / gear_.load.phases,
+                   asked.torque ? Control::torque : Control::rotation, *model, *load});
       least_rotation = std::min(least_rotation, load->rotation_rad);
       most_rotation = std::max(most_rotation, load->rotation_rad);
       LoadResult presented = present(**model, *load, direction, phase, pressure_);
@@ -255,9 +259,11 @@ private:
     const double half_pitch = std::numbers::pi / gear_.circular_spline.teeth;
     if (rotation_rad <= half_pitch)
       return;
-    say(fmt::format("a load turns the circular spline by {:.4g} rad, more than half a tooth pitch ({:.4g} rad): outside of "
-                    "what this model and any gear can do; is the load right, and youngs_modulus_mpa {} in MPa?",
-                    rotation_rad, half_pitch, gear_.material.youngs_modulus_mpa));
+    say(fmt::format(
+        "a load turns the circular spline by {:.4g} rad, more than half a tooth pitch ({:.4g} rad): outside "
+        "of "
+        "what this model and any gear can do; is the load right, and youngs_modulus_mpa {} in MPa?",
+        rotation_rad, half_pitch, gear_.material.youngs_modulus_mpa));
   }
 
   /// At meshing phase 0, where drive and coast side are mirror images.
@@ -276,6 +282,10 @@ private:
     const auto at_small = solve(**model, {true, 0.04 * rated});
     if (!at_small)
       return at_small.failure();
+    if (observer_) {
+      observer_({SolvedLoad::Use::rated, 0, Direction::drive, 0.0, Control::torque, *model, *at_rated});
+      observer_({SolvedLoad::Use::small, 0, Direction::drive, 0.0, Control::torque, *model, *at_small});
+    }
     StiffnessResult s;
     s.take_up_rad = (*model)->take_up_rad();
     s.wind_up_rad = at_rated->rotation_rad - s.take_up_rad;
@@ -320,6 +330,7 @@ private:
   const Gear& gear_;
   const PhaseSource& source_;
   ForwardResult& result_;
+  const LoadObserver& observer_;
   ContactSolver solver_;
   FlankPressure pressure_;
   std::set<double> rested_; ///< drive-side phases whose rest is known
@@ -332,8 +343,8 @@ int mirrored_tooth(int tooth, double phase) {
 }
 
 std::optional<Failure> solve_load_cases(const Gear& gear, const PhaseSource& phase_source,
-                                        ForwardResult& result) {
-  return Cases(gear, phase_source, result).run();
+                                        ForwardResult& result, const LoadObserver& observer) {
+  return Cases(gear, phase_source, result, observer).run();
 }
 
 } // namespace strainwave

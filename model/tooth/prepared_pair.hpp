@@ -66,39 +66,42 @@ struct ContactDerivatives {
   Eigen::Matrix<double, N, 1> backlash, radius;
 };
 
+/// Roll angle of the flexspline's flank at a contact's place, in dual numbers: it moves with the parameters as its edge or
+/// kink does; at an inner least gap the last slot counts its own change.
 template <int M>
-ContactDerivatives<M - 1> contact_derivatives(const ToothPair<Dual<M>>& pair, const Placement<Dual<M>>& place,
-                                              const ToothBacklash& found) {
+Dual<M> contact_roll(const ToothPair<Dual<M>>& pair, const Placement<Dual<M>>& place, ContactPlace at,
+                     int kink, double roll) {
   using T = Dual<M>;
   const Flank<T>& tooth = pair.flexspline;
   const Flank<T>& space = pair.circular_spline;
   const auto meet = [&](const T& t2) {
-    return roll_at_world_radius(tooth, place, circular_spline_radius(space, t2), found.roll);
+    return roll_at_world_radius(tooth, place, circular_spline_radius(space, t2), roll);
   };
-  T t;
-  switch (found.place) {
+  const auto k = static_cast<std::size_t>(kink);
+  switch (at) {
   case ContactPlace::flank:
-    t = T(found.roll, M, M - 1);
     break;
   case ContactPlace::flexspline_tip:
-    t = tooth.t_outer;
-    break;
+    return tooth.t_outer;
   case ContactPlace::flexspline_root:
-    t = tooth.t_inner;
-    break;
+    return tooth.t_inner;
   case ContactPlace::circular_spline_tip:
-    t = meet(space.t_inner);
-    break;
+    return meet(space.t_inner);
   case ContactPlace::circular_spline_root:
-    t = meet(space.t_outer);
-    break;
+    return meet(space.t_outer);
   case ContactPlace::flexspline_kink:
-    t = tooth.roll_at_height(tooth.removal.breaks()[static_cast<std::size_t>(found.kink)].height);
-    break;
+    return tooth.roll_at_height(tooth.removal.breaks()[k].height);
   case ContactPlace::circular_spline_kink:
-    t = meet(space.roll_at_height(space.removal.breaks()[static_cast<std::size_t>(found.kink)].height));
-    break;
+    return meet(space.roll_at_height(space.removal.breaks()[k].height));
   }
+  return T(roll, M, M - 1);
+}
+
+template <int M>
+ContactDerivatives<M - 1> contact_derivatives(const ToothPair<Dual<M>>& pair, const Placement<Dual<M>>& place,
+                                              const ToothBacklash& found) {
+  using T = Dual<M>;
+  const T t = contact_roll(pair, place, found.place, found.kink, found.roll);
   const Gap<T> at = flank_gap(pair, place, t);
   ContactDerivatives<M - 1> result;
   result.backlash = at.gap.derivatives().template head<M - 1>();

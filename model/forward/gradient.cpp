@@ -1,0 +1,149 @@
+#include "model/forward/gradient.hpp"
+
+#include "model/forward/analysis.hpp"
+#include "model/forward/gradient_phase.hpp"
+#include "model/forward/inputs.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace strainwave {
+
+namespace {
+
+/// Keys of the flexspline's tooth are keys of its finite elements as well.
+bool acts_on_elements(const std::string& path) {
+  return path.starts_with("flexspline.");
+}
+
+/// Point forces summed by tooth, in the order of LoadResult: ascending φ of the direction.
+Eigen::MatrixXd by_tooth(const std::vector<LoadedPoint>& points, const Eigen::MatrixXd& force,
+                         Direction direction) {
+  std::vector<std::size_t> first;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (i == 0 || points[i].tooth != points[i - 1].tooth)
+      first.push_back(i);
+  first.push_back(points.size());
+  const std::size_t teeth = first.size() - 1;
+  Eigen::MatrixXd sum(static_cast<Eigen::Index>(teeth), force.cols());
+  for (std::size_t k = 0; k < teeth; ++k) {
+    const std::size_t line = direction == Direction::coast ? teeth - 1 - k : k;
+    sum.row(static_cast<Eigen::Index>(line)) =
+        force
+            .middleRows(static_cast<Eigen::Index>(first[k]),
+                        static_cast<Eigen::Index>(first[k + 1] - first[k]))
+            .colwise()
+            .sum();
+  }
+  return sum;
+}
+
+/// Slopes of the least backlash over φ: at a stationary φ, or at an end of the window, φ itself does not matter.
+Eigen::VectorXd least_backlash_slopes(const Gear& gear, const NeutralCurve& curve,
+                                      const std::vector<std::string>& parameters, double phi_rad) {
+  const auto pair = FlankPair::make(gear);
+  const double space = phi_rad * gear.flexspline.teeth / gear.circular_spline.teeth;
+  const PoseDerivatives pose = curve.pose_derivatives(phi_rad);
+  const ToothBacklash contact = pair->drive(pose.value, space);
+  const ContactSlopes slopes =
+      FlankSlopes(gear, parameters, 0.0)
+          .at(kinematic_slopes(curve, parameters, phi_rad), space,
+              {.height = {}, .place = contact.place, .kink = contact.kink, .roll = contact.roll});
+  return 1e3 * slopes.gap;
+}
+
+/// The discs follow the parameters so that the radial displacement in the reference section stays u0. radial: its slopes by
+/// column of the surface, the shift last.
+std::vector<double> shift_slopes(const SlopeInputs& inputs, std::vector<double> radial) {
+  const double by_shift = radial.back();
+  radial.pop_back();
+  for (std::size_t c = 0; c < radial.size(); ++c) {
+    const auto parameter = static_cast<std::size_t>(inputs.surface_slopes.parameter()[c]);
+    const bool u0 = inputs.parameters[parameter] == "wave_generator.max_radial_deformation_mm";
+    radial[c] = -(radial[c] - (u0 ? 1.0 : 0.0)) / by_shift;
+  }
+  return radial;
+}
+
+} // namespace
+
+bool has_exact_gradient(const Gear& gear, const std::string& path) {
+  return !acts_on_elements(path) && (is_flank_parameter(gear, path) || is_surface_parameter(gear, path));
+}
+
+std::shared_ptr<const AssembledState> Analysis::known_assembly(double phase) {
+  auto assembled = assembly(phase);
+  if (!assembled) // it was there during the analysis
+    throw std::logic_error("the assembly at a meshing phase was lost");
+  return *assembled;
+}
+
+ForwardGradient Analysis::gradient(std::span<const std::string> parameters) {
+  ForwardGradient g;
+  g.parameters.assign(parameters.begin(), parameters.end());
+  for (const std::string& path : g.parameters)
+    if (!has_exact_gradient(gear_, path))
+      throw std::invalid_argument("no exact gradient with respect to " + path);
+  std::vector<FlankSlopes> flanks;
+  for (const double z : slice_places(*ring_->responses))
+    flanks.emplace_back(gear_, g.parameters, face_coordinate(gear_.flexspline, z));
+  SlopeInputs inputs{.gear = gear_,
+                     .curve = **curve_,
+                     .ring = ring_->compliance,
+                     .surface = *surface_,
+                     .flanks = flanks_,
+                     .flank_slopes = std::move(flanks),
+                     .surface_slopes = SurfaceSlopes(gear_, **curve_, *surface_, g.parameters, disc_shift_),
+                     .parameters = g.parameters};
+  if (gear_.contact.reference_section_mm && inputs.surface_slopes.columns() > 1)
+    inputs.surface_slopes.follow_shift(shift_slopes(
+        inputs, PhaseSlopes(inputs, known_assembly(0.0)).radial(*gear_.contact.reference_section_mm)));
+
+  std::map<double, std::unique_ptr<const PhaseSlopes>> phases;
+  const auto at_phase = [&](double phase) -> const PhaseSlopes& {
+    auto& slopes = phases[phase];
+    if (!slopes)
+      slopes = std::make_unique<const PhaseSlopes>(inputs, known_assembly(phase));
+    return *slopes;
+  };
+  g.assembly_force_n = at_phase(0.0).assembly_force();
+  g.min_backlash_um = least_backlash_slopes(gear_, **curve_, g.parameters,
+                                            result_.backlash->min_phi_deg * std::numbers::pi / 180.0);
+  g.load.resize(result_.load.size());
+  for (const SolvedLoad& solved : solved_) {
+    const PhaseSlopes& slopes = at_phase(solved.model_phase);
+    const std::vector<LoadedPoint>& points = solved.model->points();
+    PhaseLoadSlopes of = slopes.of(points, solved.load, solved.control);
+    switch (solved.use) {
+    case SolvedLoad::Use::rated:
+      g.rated_rotation_rad = of.rotation_rad;
+      g.take_up_rad = solved.model->least_take_up_rad() > 0.0 ? slopes.least_take_up(points)
+                                                              : Eigen::VectorXd::Zero(of.rotation_rad.size());
+      break;
+    case SolvedLoad::Use::small:
+      g.small_rotation_rad = of.rotation_rad;
+      break;
+    case SolvedLoad::Use::load_case:
+      g.load[solved.load_case].push_back({.force_n = by_tooth(points, of.force_n, solved.direction),
+                                          .rotation_rad = of.rotation_rad,
+                                          .torque_nm = of.torque_nm,
+                                          .tangent_nm_per_rad = of.tangent_nm_per_rad,
+                                          .disc_force_n = of.disc_force_n});
+    }
+  }
+  return g;
+}
+
+ForwardGradient ForwardSolution::gradient(std::span<const std::string> parameters) const {
+  return analysis_->gradient(parameters);
+}
+
+ForwardResult ForwardModel::analyze(const Gear& gear, std::shared_ptr<const ForwardSolution>& solution) {
+  const auto analysis = std::make_shared<Analysis>(*state_, gear, Want::load);
+  analysis->keep_solution();
+  ForwardResult result = analysis->run();
+  solution = result.status == Status::ok ? std::make_shared<const ForwardSolution>(analysis) : nullptr;
+  return result;
+}
+
+} // namespace strainwave
