@@ -1,4 +1,5 @@
 #include "model/forward/gradient_phase.hpp"
+#include "model/forward/flank_points.hpp"
 #include "model/forward/gradient_detail.hpp"
 
 #include <algorithm>

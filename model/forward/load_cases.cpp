@@ -226,7 +226,7 @@ private:
     const auto add = [&](const std::vector<LoadedPoint>& points, const std::vector<double>& force_n,
                          const std::vector<double>& gap_um) {
       int count = 0;
-      for (const double force : side_of(points, force_n, gap_um, false, phase).force_n) {
+      for (const double force : side_of(points, force_n, gap_um, false, phase, pressure_).force_n) {
         wedge.peak_force_n = std::max(wedge.peak_force_n, force);
         wedge.sum_force_n += force;
         count += force > 0.0;
