@@ -1,8 +1,17 @@
 // The forward model on the seed gear, finite elements already solved: what one evaluation of a study costs.
 
+#include "model/flexspline/responses.hpp"
+#include "model/forward/flank_points.hpp"
 #include "model/forward/forward.hpp"
+#include "model/forward/inputs.hpp"
+#include "model/forward/load_cases.hpp"
+#include "model/forward/phase_model.hpp"
 
 #include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
 
 namespace strainwave {
 namespace {
@@ -80,6 +89,76 @@ void whole_flank(benchmark::State& state) {
   }
 }
 BENCHMARK(whole_flank)->Unit(benchmark::kMillisecond);
+
+// The same, started from the selection and closed set of the unmodified gear, as a study's plan fixes them once.
+void whole_flank_started(benchmark::State& state) {
+  Gear gear = one_load(7.0);
+  gear.contact.flank_points = 6;
+  gear.contact.face_slices = 5;
+  const LoadStarts starts = warm_model().load_starts(gear).value();
+  double relief = 0.0;
+  for (auto _ : state) {
+    gear.flank_modification.flexspline.tip_relief_um = relief += 1e-3;
+    benchmark::DoNotOptimize(warm_model().analyze(gear, Want::load, &starts));
+  }
+}
+BENCHMARK(whole_flank_started)->Unit(benchmark::kMillisecond);
+
+/// The contact alone: gaps are known and a little different every time, assembly and finite elements are there.
+class ContactAlone {
+public:
+  ContactAlone() : gear(one_load(7.0)) {
+    gear.contact.flank_points = 6;
+    gear.contact.face_slices = 5;
+    responses = unit_responses(response_request(gear)).value();
+    ring.emplace(responses, contact_rows(gear), true);
+    curve.emplace(NeutralCurve::make(gear.wave_generator, gear.flexspline).value());
+    discs.emplace(surface_of(gear, *curve));
+    assembled = std::make_shared<const AssembledState>(assemble(*ring, *discs, 0.0, solver).value());
+    std::vector<FlankPair> flanks;
+    for (const double z : slice_places(responses))
+      flanks.push_back(FlankPair::make(gear, face_coordinate(gear.flexspline, z)).value());
+    drive = flank_points(gear, responses, backlash(gear, *curve).value(), flanks,
+                         [&](int, double phi, int) { return curve->pose(phi); });
+    coast = drive;
+    std::reverse(coast.begin(), coast.end());
+    for (LoadedPoint& point : coast) {
+      point.tooth = mirrored_tooth(point.tooth, 0.0);
+      point.phi_rad = -point.phi_rad;
+      point.coast = true;
+    }
+  }
+  PhaseLoad solve(double change_um, const ContactStart& start) {
+    std::vector<LoadedPoint> moved = drive;
+    for (LoadedPoint& point : moved)
+      point.backlash_mm += 1e-3 * change_um;
+    return PhaseModel(gear.contact, *ring, *discs, assembled, std::move(moved), coast, start)
+        .at_torque(7.0 + change_um, solver)
+        .value();
+  }
+
+  Gear gear;
+  UnitResponses responses;
+  std::optional<RingCompliance> ring;
+  std::optional<NeutralCurve> curve;
+  std::optional<WaveGeneratorSurface> discs;
+  std::shared_ptr<const AssembledState> assembled;
+  std::vector<LoadedPoint> drive, coast;
+  ContactSolver solver;
+};
+
+void contact_alone(benchmark::State& state, bool started) {
+  static ContactAlone contact;
+  const ContactStart start = started ? contact.solve(0.0, {}).start : ContactStart{};
+  double change = 0.0;
+  int rounds = 0;
+  for (auto _ : state)
+    rounds = contact.solve(change += 1e-4, start).rounds;
+  state.counters["candidates"] = static_cast<double>(contact.drive.size() + contact.coast.size());
+  state.counters["rounds"] = rounds;
+}
+BENCHMARK_CAPTURE(contact_alone, cold, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(contact_alone, warm, true)->Unit(benchmark::kMillisecond);
 
 void backlash_only(benchmark::State& state) {
   Gear gear = one_load(7.0);

@@ -19,6 +19,7 @@ namespace strainwave {
 
 struct ContactStates;  // contact_forces.hpp
 class ForwardSolution; // gradient.hpp
+struct LoadStarts;     // phase_model.hpp
 struct PhaseProblem;   // phase_problem.hpp
 
 struct ForwardOptions {
@@ -38,7 +39,11 @@ public:
 
   /// Never throws for a gear that cannot be computed: status and message say why. Throws std::system_error and
   /// std::bad_alloc for disk and memory, FieldError for a faulty wave_generator.table_file.
-  ForwardResult analyze(const Gear& gear, Want want = Want::load);
+  /// `starts`: of a nominal gear, fixed by a study's plan; they save work and change no result.
+  ForwardResult analyze(const Gear& gear, Want want = Want::load, const LoadStarts* starts = nullptr);
+
+  /// Where the loads of a gear's neighbours may start: its own solutions, drive side, every phase.
+  Outcome<LoadStarts> load_starts(const Gear& gear);
 
   /// The same result for Want::load; where its status is ok, `solution` is what its derivatives can be had from.
   ForwardResult analyze(const Gear& gear, std::shared_ptr<const ForwardSolution>& solution);

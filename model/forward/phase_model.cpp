@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 namespace strainwave {
@@ -43,7 +44,28 @@ ContactState march_to_torque(const ContactProblem& problem, double torque, doubl
   return march(problem, start, std::max(start, rotation), options, solver).last;
 }
 
+/// The name of a point: drive before coast, then by tooth, slice and height.
+template <class Point>
+auto name_of(const Point& point) {
+  return std::tuple(point.coast, point.tooth, point.slice, point.level);
+}
+
 } // namespace
+
+ContactStart merged(const ContactStart& first, const ContactStart& second) {
+  ContactStart both = second;
+  std::set<decltype(name_of(second.points.front()))> named;
+  for (const ContactStart::Point& point : second.points)
+    named.insert(name_of(point));
+  for (ContactStart::Point point : first.points) {
+    point.closed = false;
+    if (named.insert(name_of(point)).second)
+      both.points.push_back(point);
+  }
+  std::sort(both.points.begin(), both.points.end(),
+            [](const auto& a, const auto& b) { return name_of(a) < name_of(b); });
+  return both;
+}
 
 PhaseModel::PhaseModel(const Contact& contact, const RingCompliance& ring,
                        const WaveGeneratorSurface& surface, std::shared_ptr<const AssembledState> assembled,
@@ -141,14 +163,13 @@ std::vector<int> PhaseModel::started_selection(const ContactStart& start) {
   const bool linear = contact_.fidelity == Fidelity::linear;
   if (start.points.empty() || start.wall.size() != (linear ? 0 : assembled_->active.size()))
     return {};
-  const auto key = [](const auto& p) { return std::tuple(p.coast, p.tooth, p.slice, p.level); };
-  std::map<decltype(key(points_.front())), bool> named;
+  std::map<decltype(name_of(points_.front())), bool> named;
   for (const ContactStart::Point& point : start.points)
-    named.emplace(key(point), point.closed);
+    named.emplace(name_of(point), point.closed);
   std::vector<int> index;
   bool drive = false;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const auto found = named.find(key(points_[i]));
+    const auto found = named.find(name_of(points_[i]));
     if (found == named.end())
       continue;
     index.push_back(static_cast<int>(i));

@@ -15,6 +15,7 @@
 #include "model/contact/load_problem.hpp"
 #include "model/gear/gear.hpp"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -30,6 +31,14 @@ struct ContactStart {
   };
   std::vector<Point> points; ///< ascending: drive then coast, as the model lists them
   ActiveSet wall;            ///< by station; empty for fidelity linear
+};
+
+/// The points of both; what is closed in the second.
+ContactStart merged(const ContactStart& first, const ContactStart& second);
+
+/// Starts by drive-side meshing phase.
+struct LoadStarts {
+  std::map<double, ContactStart> by_phase;
 };
 
 /// One load at one phase. Arrays run over PhaseModel::points(), those with coast_ over PhaseModel::coast_points().

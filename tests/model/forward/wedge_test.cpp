@@ -272,6 +272,28 @@ TEST(Wedge, AStartChangesNoResult) {
   EXPECT_LE(started.at_torque(7.2, solver)->rounds, from_scratch.at_torque(7.2, solver)->rounds);
 }
 
+TEST(Wedge, AnalysesFromNominalStartsAreThoseFromScratch) {
+  ForwardModel model({.disk_cache = false});
+  Gear gear = seed_with(2.12);
+  gear.contact.flank_points = 5;
+  gear.contact.face_slices = 3;
+  gear.load.torque_nm = {0.5, 7.0};
+  gear.load.phases = 2;
+  const LoadStarts starts = model.load_starts(gear).value();
+  ASSERT_EQ(starts.by_phase.size(), 2U);
+  gear.flank_modification.flexspline.tip_relief_um = 3.0;
+  gear.load.torque_nm = {0.6, 6.5};
+  const ForwardResult cold = model.analyze(gear);
+  const ForwardResult started = model.analyze(gear, Want::load, &starts);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_NEAR(started.load[k].rotation_rad, cold.load[k].rotation_rad, 1e-14);
+    EXPECT_NEAR(started.load[k].peak_force_n, cold.load[k].peak_force_n, 1e-10);
+    for (std::size_t i = 0; i < cold.load[k].points.force_n.size(); ++i)
+      EXPECT_NEAR(started.load[k].points.force_n[i], cold.load[k].points.force_n[i], 1e-9) << k << " " << i;
+  }
+  EXPECT_NEAR(started.wedge->peak_force_n, cold.wedge->peak_force_n, 1e-9);
+}
+
 TEST(Wedge, AnalysisOfAWedgedGearSaysHowHard) {
   ForwardModel model({.disk_cache = false});
   Gear gear = seed_with(2.1);
