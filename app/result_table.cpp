@@ -170,7 +170,8 @@ std::string result_table(const ForwardResult& result) {
   }
   if (const auto& w = result.wedge) {
     fmt::format_to(out,
-                   "WEDGED          at rest up to {:.2f} N on a flank, {:.2f} N in all (each lobe; {} drive and {} coast "
+                   "WEDGED          at rest up to {:.2f} N on a flank, {:.2f} N in all (each lobe; {} drive "
+                   "and {} coast "
                    "flanks), rigid overlap {:.2f} µm\n",
                    w->peak_force_n, w->sum_force_n, w->drive_count, w->coast_count, w->overlap_um);
   }

@@ -242,9 +242,14 @@ private:
 
   void say_wedged() {
     if (const auto& w = result_.wedge) {
-      say(fmt::format("drive and coast flanks touch at once: the gear is wedged, at rest with up to {:.3g} N on a flank "
-                      "({} drive and {} coast flanks carry)",
-                      w->peak_force_n, w->drive_count, w->coast_count));
+      say(fmt::format(
+          "drive and coast flanks touch at once: the gear is wedged, at rest with up to {:.3g} N on a flank "
+          "({} drive and {} coast flanks carry)",
+          w->peak_force_n, w->drive_count, w->coast_count));
+      if (gear_.contact.force_direction == ForceDirection::circumferential)
+        say("without the flanks' push inwards teeth can only be squeezed: take contact.force_direction = "
+            "\"flank_normal\" for "
+            "the force of a wedge");
     }
   }
 

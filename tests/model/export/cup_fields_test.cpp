@@ -23,7 +23,9 @@ double tooth_displacement(const RingPart& ring, const ResponseFunctionals& plan,
       std::clamp((tooth.flank_radius_mm - radius[below]) / (radius[below + 1] - radius[below]), 0.0, 1.0);
   const int sector = (tooth.tooth + ring.sectors()) % ring.sectors();
   const auto at = [&](std::size_t height) {
-    const int functional = plan.layout.flank(static_cast<int>(height), 0, UnitResponses::circumferential);
+    const int functional =
+        tooth.coast ? plan.layout.coast(static_cast<int>(height), 0, UnitResponses::circumferential)
+                    : plan.layout.flank(static_cast<int>(height), 0, UnitResponses::circumferential);
     return ring.measure(plan.functionals[static_cast<std::size_t>(functional)], sector, displacement);
   };
   return (1.0 - share) * at(below) + share * at(below + 1);
@@ -102,6 +104,39 @@ TEST(CupFields, loaded_teeth_move_by_what_the_rotation_closes) {
   }
   EXPECT_GT(engaged, 4);
   EXPECT_NEAR(torque, 7.0, 1e-9);
+}
+
+TEST(CupFields, wedged_teeth_touch_on_both_flanks) {
+  Gear gear = testing_export::coarse_seed();
+  gear.circular_spline.profile_shift = 2.12; // 1.5 µm of interference
+  gear.load.torque_nm = {1.0};
+  ForwardModel model({.disk_cache = false});
+  const auto states = model.contact_states(gear);
+  ASSERT_TRUE(states.ok()) << states.failure().message;
+  const auto fields = cup_fields(*states);
+  ASSERT_TRUE(fields.ok());
+  const ResponseFunctionals plan = response_functionals(states->request, fields->mesh);
+  const RingPart ring(fields->mesh);
+  const Eigen::VectorXd change = fields->field.displacement.col(1) - fields->field.displacement.col(0);
+  const ContactForces& loaded = states->states[1];
+  int driving = 0, coasting = 0;
+  double torque = 0.0;
+  for (const ToothContact& contact : loaded.teeth) {
+    const LoadedPoint& tooth = contact.tooth;
+    // Towards larger φ the tooth moves into the drive flank and away from the coast flank; θ does the opposite.
+    const double away =
+        tooth_displacement(ring, plan, tooth, change) + tooth.contact_radius_mm * loaded.rotation_rad;
+    const double gap = tooth.backlash_mm + (tooth.coast ? away : -away);
+    torque += (tooth.coast ? -2e-3 : 2e-3) * contact.force_n * tooth.contact_radius_mm;
+    EXPECT_GT(gap, -1e-8) << "tooth " << tooth.tooth;
+    if (contact.force_n > 0.0) {
+      (tooth.coast ? coasting : driving) += 1;
+      EXPECT_NEAR(gap, 0.0, 1e-8) << "tooth " << tooth.tooth;
+    }
+  }
+  EXPECT_GT(driving, 1);
+  EXPECT_GT(coasting, 1);
+  EXPECT_NEAR(torque, 1.0, 1e-9);
 }
 
 TEST(CupFields, linear_fidelity_keeps_the_closed_wall_where_assembly_put_it) {
