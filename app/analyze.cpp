@@ -3,14 +3,20 @@
 #include "app/result_table.hpp"
 #include "model/export/figures.hpp"
 #include "model/export/flank_figures.hpp"
+#include "model/export/replaced_file.hpp"
 #include "model/forward/forward.hpp"
 #include "model/forward/result_file.hpp"
 #include "model/forward/result_json.hpp"
 #include "model/gear/fields.hpp"
 #include "model/gear_file/gear_file.hpp"
 
+#include <cerrno>
+#include <filesystem>
 #include <memory>
 #include <vector>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace strainwave::app {
 
@@ -52,6 +58,29 @@ void draw_figures(const ForwardResult& result, Gear gear, Want want, ForwardMode
     report(drawn.note);
 }
 
+/// Throws std::system_error "cannot write PATH" when a file of this name could not be made; leaves nothing behind.
+void try_to_write(const std::filesystem::path& path) {
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown))
+    cannot_write(path, EISDIR);
+  const std::filesystem::path beside = path.string() + ".part"; // as the result will be written
+  const int file = open(beside.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (file < 0)
+    cannot_write(path, errno);
+  close(file);
+  std::filesystem::remove(beside, unknown);
+}
+
+/// Places of results are tried before anything is computed: minutes later would be too late.
+void try_places(const AnalyzeOptions& options) {
+  if (!options.out.empty())
+    try_to_write(options.out);
+  if (options.plots.empty())
+    return;
+  std::filesystem::create_directories(options.plots);
+  try_to_write(std::filesystem::path(options.plots) / "initial-backlash.dat");
+}
+
 ExitCode analyze(const AnalyzeOptions& options) {
   Gear gear = load_gear(options.file).gear;
   if (!options.torque_nm.empty() || !options.rotation_rad.empty()) {
@@ -66,6 +95,7 @@ ExitCode analyze(const AnalyzeOptions& options) {
                     : options.only == "compliance" ? Want::compliance
                                                    : Want::load;
   refuse_to_replace(options.out, {options.file, gear.wave_generator.table_file});
+  try_places(options);
   ForwardModel model({.disk_cache = !options.no_cache, .threads = options.threads});
   const ForwardResult result = model.analyze(gear, want);
   for (const std::string& warning : result.warnings)

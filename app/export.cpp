@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct ExportOptions {
   std::vector<double> torque_nm;
   ProfileOptions outlines;
   bool no_cache = false;
+  std::vector<std::string> given; ///< names of the options on the command line
 };
 
 ExitCode no_result(const Failure& failure) {
@@ -91,6 +93,32 @@ ExitCode write_contact(const Gear& gear, const ExportOptions& options) {
   return ExitCode::done;
 }
 
+/// Options that nothing asked for would read: a misunderstanding, not to be passed over.
+void refuse_idle_options(const ExportOptions& options) {
+  const bool unit_load = !options.calculix.empty() && !options.contact_forces;
+  const bool loaded = !options.vtkhdf.empty() || (!options.calculix.empty() && options.contact_forces);
+  struct Rule {
+    const char* option;
+    bool applies;
+    const char* needs;
+  };
+  const Rule rules[] = {
+      {"--tooth", unit_load, "--calculix without --contact-forces"},
+      {"--height", unit_load, "--calculix without --contact-forces"},
+      {"--direction", unit_load, "--calculix without --contact-forces"},
+      {"--contact-forces", !options.calculix.empty(), "--calculix"},
+      {"--torque-nm", loaded, "--vtkhdf, or --calculix with --contact-forces"},
+      {"--teeth", !options.profile.empty(), "--profile"},
+      {"--points", !options.profile.empty(), "--profile"},
+      {"--zeta", !options.profile.empty(), "--profile"},
+  };
+  for (const Rule& rule : rules) {
+    if (!rule.applies &&
+        std::find(options.given.begin(), options.given.end(), rule.option) != options.given.end())
+      throw UsageError(fmt::format("{} has no effect here; it belongs to {}", rule.option, rule.needs));
+  }
+}
+
 ExitCode export_gear(const ExportOptions& options) {
   if (options.calculix.empty() && options.vtkhdf.empty() && options.profile.empty() &&
       options.contact.empty())
@@ -99,6 +127,7 @@ ExitCode export_gear(const ExportOptions& options) {
         "--contact F.h5");
   if (!options.profile.empty() && !options.profile.ends_with(".dxf") && !options.profile.ends_with(".csv"))
     throw UsageError(fmt::format("--profile {}: the name must end in .dxf or .csv", options.profile));
+  refuse_idle_options(options);
   Gear gear = load_gear(options.file).gear;
   if (!options.torque_nm.empty()) {
     gear.load.rotation_rad.clear();
@@ -159,7 +188,11 @@ void add_export(CLI::App& app, Command& chosen) {
                    "Profile: section of the face, -1 diaphragm end … 1 open end (default 0)")
       ->check(CLI::Range(-1.0, 1.0));
   command->add_flag("--no-cache", o->no_cache, "Neither read nor write the cache of solved cups");
-  command->callback([&chosen, o] {
+  command->callback([&chosen, o, command] {
+    for (const CLI::Option* option : command->get_options()) {
+      if (option->count() > 0)
+        o->given.push_back(option->get_name());
+    }
     o->load.radial = o->direction == "radial";
     chosen = [o] { return export_gear(*o); };
   });

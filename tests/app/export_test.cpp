@@ -173,6 +173,54 @@ TEST_F(Export, wave_generator_without_wrap_has_no_fields_and_no_profile_but_a_de
   EXPECT_EQ(run("export bad.toml --calculix x.inp").code, 0);
 }
 
+TEST_F(Export, options_that_nothing_would_read_are_named) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"--profile teeth.csv --tooth 2",
+       "--tooth has no effect here; it belongs to --calculix without --contact-forces"},
+      {"--calculix cup.inp --contact-forces --height 0.7", "--height has no effect here"},
+      {"--calculix cup.inp --torque-nm 7",
+       "--torque-nm has no effect here; it belongs to --vtkhdf, or --calculix with"},
+      {"--vtkhdf cup.vtkhdf --zeta 0.5", "--zeta has no effect here; it belongs to --profile"},
+      {"--profile teeth.csv --contact-forces",
+       "--contact-forces has no effect here; it belongs to --calculix"}};
+  for (const auto& [options, sentence] : cases) {
+    const End end = run(fmt::format("export gear.toml {}", options));
+    EXPECT_EQ(end.code, 2) << options;
+    EXPECT_NE(end.err.find(sentence), std::string::npos) << end.err;
+  }
+  EXPECT_FALSE(fs::exists(folder / "teeth.csv"));
+}
+
+TEST_F(Export, gallery_gears_of_the_whole_flank_are_free_as_they_stand) {
+  const std::string gallery = STRAINWAVE_SOURCE "/studies/gallery/";
+  EXPECT_EQ(run("check " + gallery + "seed_flank.toml").code, 0);
+  EXPECT_EQ(run("check " + gallery + "seed_coned.toml").code, 0);
+  // the backlash map does not hang on the points; x2 has four decimals, each 0.01 µm
+  std::string text = text_of(fs::path(gallery) / "seed_coned.toml");
+  text.replace(text.find("flank_points = 9"), 16, "flank_points = 1");
+  text.replace(text.find("face_slices = 9"), 15, "face_slices = 1");
+  std::ofstream(folder / "coned.toml") << text;
+  const End end = run("analyze coned.toml --json --only compliance");
+  EXPECT_EQ(end.code, 0) << end.err;
+  EXPECT_NE(end.out.find("\"interference\": false"), std::string::npos);
+  const std::size_t map = end.out.find("\"min_um\"", end.out.find("\"assembled\""));
+  ASSERT_NE(map, std::string::npos);
+  EXPECT_NEAR(std::stod(end.out.substr(end.out.find(':', map) + 1)), 1.0, 0.05);
+}
+
+TEST_F(Export, analyze_tries_its_places_before_it_computes) {
+  for (const char* options : {"-o nowhere/out.h5", "-o .", "--plots gear.toml/x"}) {
+    const End end = run(fmt::format("analyze gear.toml {}", options));
+    EXPECT_EQ(end.code, 74) << options;
+    EXPECT_EQ(end.out, "") << options; // the table comes after the computation
+  }
+  fs::create_directory(folder / "plots");
+  fs::create_directory(folder / "plots/initial-backlash.dat");
+  EXPECT_EQ(run("analyze gear.toml --plots plots").out, "");
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    EXPECT_NE(entry.path().extension(), ".part");
+}
+
 TEST_F(Export, analyze_draws_plots_or_says_why_not) {
   const End without = run("analyze gear.toml --plots plain", "PATH=/nonexistent");
   EXPECT_EQ(without.code, 0) << without.err;
