@@ -82,14 +82,14 @@ std::vector<double> slice_places(const UnitResponses& responses) {
   return z;
 }
 
+double gap_height(int level, int levels) {
+  const double step = 1.0 / (levels - 1.0);
+  return level + 1 == levels ? 1.0 - step / 3.0 : level * step;
+}
+
 double face_coordinate(const Flexspline& fs, double z_mm) {
   const double middle = fs.cup_length_mm - fs.front_clearance_mm - 0.5 * fs.face_width_mm;
   return (z_mm - middle) / (0.5 * fs.face_width_mm);
-}
-
-double height_of_level(int level, int heights) {
-  const double step = 1.0 / (heights - 1);
-  return level + 1 == heights ? 1.0 - step / 3.0 : level * step;
 }
 
 std::vector<LoadedPoint> flank_points(const Gear& gear, const UnitResponses& responses, const Backlash& teeth,
@@ -98,7 +98,7 @@ std::vector<LoadedPoint> flank_points(const Gear& gear, const UnitResponses& res
   const double ratio = static_cast<double>(fs.teeth) / gear.circular_spline.teeth;
   const double height = fs.tip_radius_mm - fs.root_radius_mm;
   const double step = 1.0 / (static_cast<double>(responses.flank_radius_mm.size()) - 1.0);
-  const bool normal = gear.contact.force_direction == ForceDirection::flank_normal;
+  const bool normal = gear.contact.direction_of_force() == ForceDirection::flank_normal;
   const std::vector<double> places = slice_places(responses);
   std::vector<LoadedPoint> points;
   for (std::size_t i = 0; i < teeth.tooth.size(); ++i) {
@@ -145,7 +145,8 @@ std::vector<LoadedPoint> flank_points(const Gear& gear, const UnitResponses& res
           -1);
       for (std::size_t level = 0; level < responses.flank_radius_mm.size(); ++level) {
         const bool last = level + 1 == responses.flank_radius_mm.size();
-        const double h = height_of_level(static_cast<int>(level), static_cast<int>(responses.flank_radius_mm.size()));
+        const double h =
+            gap_height(static_cast<int>(level), static_cast<int>(responses.flank_radius_mm.size()));
         if (h < edge + 0.5 * step)
           continue;
         if (const auto at = gap_at_height(pair, pose, space, h)) {

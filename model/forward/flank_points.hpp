@@ -54,9 +54,9 @@ private:
 /// mean displacement over the hat. The outer hats are halves, a third of a step inside the face's ends.
 std::vector<double> slice_places(const UnitResponses& responses);
 
-/// Flank coordinate at which the gap of a height (hat 0 … heights − 1, root … tip) is taken. The tip's hat is a half one: what
-/// it measures is the displacement at its centroid.
-double height_of_level(int level, int heights);
+/// Flank coordinate at which the gap of height `level` of `levels` ≥ 2 is taken: the height itself, but for the tip's half hat
+/// its centroid, a third of the step inside. Load and displacement are the hat's either way.
+double gap_height(int level, int levels);
 
 /// ζ of a place along the axis: −1 at the diaphragm's end of the face, +1 at the open end.
 double face_coordinate(const Flexspline& flexspline, double z_mm);

@@ -68,7 +68,7 @@ std::vector<LineContact> FlankPressure::of(const std::vector<LoadedPoint>& point
       double force = force_n[index[k]];
       if (!(force > 0.0))
         continue;
-      if (gear_.contact.force_direction == ForceDirection::circumferential)
+      if (gear_.contact.direction_of_force() == ForceDirection::circumferential)
         force *= point.contact_radius_mm / std::min(circular_base, point.contact_radius_mm);
       const double share =
           index.size() > 1

@@ -3,6 +3,7 @@
 
 #include "model/gear/fields.hpp"
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 
@@ -29,7 +30,9 @@ struct is_optional<std::optional<T>> : std::true_type {};
 
 template <class Member>
 constexpr FieldKind kind_of() {
-  if constexpr (std::is_enum_v<Member>)
+  if constexpr (is_optional<Member>::value)
+    return kind_of<typename Member::value_type>();
+  else if constexpr (std::is_enum_v<Member>)
     return FieldKind::choice;
   else if constexpr (std::is_same_v<Member, int>)
     return FieldKind::integer;
@@ -41,35 +44,47 @@ constexpr FieldKind kind_of() {
     return FieldKind::number;
 }
 
+/// A value as a field holds it: choices by their name.
+template <class Value>
+FieldValue held(const Value& value) {
+  if constexpr (std::is_enum_v<Value>)
+    return std::string(choice_name(value));
+  else
+    return value;
+}
+template <class Value>
+Value taken(const FieldValue& value) {
+  if constexpr (std::is_enum_v<Value>) {
+    const Names names = choice_names(Value{});
+    const auto found = std::find(names.begin(), names.end(), std::get<std::string>(value));
+    return static_cast<Value>(found - names.begin());
+  } else {
+    return std::get<Value>(value);
+  }
+}
+
 /// Members is the way from the gear to the member: &Gear::flexspline, &Flexspline::teeth.
 template <auto... Members>
 FieldValue read_member(const Gear& gear) {
   const auto& member = (gear.*....*Members);
   using Member = std::decay_t<decltype(member)>;
-  if constexpr (std::is_enum_v<Member>)
-    return std::string(choice_name(member));
-  else if constexpr (is_optional<Member>::value)
-    return member ? FieldValue(*member) : FieldValue();
+  if constexpr (is_optional<Member>::value)
+    return member ? held(*member) : FieldValue();
   else
-    return member;
+    return held(member);
 }
 
 template <auto... Members>
 void write_member(Gear& gear, const FieldValue& value) {
   auto& member = (gear.*....*Members);
   using Member = std::decay_t<decltype(member)>;
-  if constexpr (std::is_enum_v<Member>) {
-    const Names names = choice_names(Member{});
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (names[i] == std::get<std::string>(value))
-        member = static_cast<Member>(i);
-  } else if constexpr (is_optional<Member>::value) {
+  if constexpr (is_optional<Member>::value) {
     if (std::holds_alternative<std::monostate>(value))
       member.reset();
     else
-      member = std::get<typename Member::value_type>(value);
+      member = taken<typename Member::value_type>(value);
   } else {
-    member = std::get<Member>(value);
+    member = taken<Member>(value);
   }
 }
 
@@ -84,6 +99,10 @@ Field field(std::string_view path, std::string_view unit, Range range, std::stri
   row.range = range;
   if constexpr (std::is_enum_v<Member>)
     row.choices = choice_names(Member{});
+  else if constexpr (is_optional<Member>::value) {
+    if constexpr (std::is_enum_v<typename Member::value_type>)
+      row.choices = choice_names(typename Member::value_type{});
+  }
   row.sentence = sentence;
   row.read = read_member<Members...>;
   row.write = write_member<Members...>;
@@ -253,9 +272,10 @@ void add_calculation(std::vector<Field>& rows) {
       field<C, &Con::method>("contact.method", "", any,
                              "event_path: exact path from event to event; stepping: marching with step "
                              "halving"));
-  rows.push_back(field<C, &Con::force_direction>(
-      "contact.force_direction", "", any,
-      "direction of the force on a flank; flank_normal adds its radial part"));
+  rows.push_back(field<C, &Con::force_direction>("contact.force_direction", "", any,
+                                                 "direction of the force on a flank; flank_normal adds its "
+                                                 "radial part; absent: circumferential with one contact "
+                                                 "point per tooth, flank_normal with more"));
   rows.push_back(
       pair_of(field<C, &Con::window_deg>("contact.window_deg", "degrees", within(-90.0, 90.0),
                                          "material angles [from, to] of the teeth that may touch, ends "

@@ -20,10 +20,12 @@ Gear seed_gear() {
                      .front_clearance_mm = 0.5,
                      .diaphragm_thickness_mm = 0.3,
                      .boss_radius_mm = 5.0};
-  gear.circular_spline = {.teeth = 142, .profile_shift = 2.19, .tip_radius_mm = 14.5, .root_radius_mm = 14.86};
+  gear.circular_spline = {
+      .teeth = 142, .profile_shift = 2.19, .tip_radius_mm = 14.5, .root_radius_mm = 14.86};
   gear.wave_generator.max_radial_deformation_mm = 0.2;
   gear.wave_generator.eccentricity_mm = 0.6;
   gear.wave_generator.contact_width_mm = 4.0;
+  gear.contact.force_direction = ForceDirection::circumferential; // as the source text has it
   gear.load.torque_nm = {1.0, 7.0, 11.5};
   return gear;
 }

@@ -86,7 +86,7 @@ struct Contact {
   Fidelity fidelity = Fidelity::unilateral;
   AssemblyModel assembly = AssemblyModel::small_displacement;
   LoadMethod method = LoadMethod::event_path;
-  ForceDirection force_direction = ForceDirection::circumferential;
+  std::optional<ForceDirection> force_direction; ///< absent: direction_of_force() decides
   std::vector<double> window_deg; ///< material angles [lo, hi], ends included; empty: every tooth
   int lobes = 2;
   DiscGap disc_gap = DiscGap::exact;
@@ -94,6 +94,13 @@ struct Contact {
   int face_slices = 1;
   GapModel gaps = GapModel::kinematic;
   std::optional<double> reference_section_mm;
+
+  /// The force's direction where the file says nothing: circumferential for the source text's single point of a tooth, along
+  /// the flank normal over the whole flank.
+  ForceDirection direction_of_force() const {
+    return force_direction.value_or(flank_points == 1 && face_slices == 1 ? ForceDirection::circumferential
+                                                                          : ForceDirection::flank_normal);
+  }
 };
 
 /// Element counts of the flexspline's sector mesh (one tooth pitch).

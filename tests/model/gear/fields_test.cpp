@@ -31,7 +31,7 @@ FieldValue another_value(const Field& field) {
     return std::string("another");
   if (field.kind == FieldKind::choice) {
     for (const std::string_view choice : field.choices)
-      if (std::string(choice) != std::get<std::string>(standard))
+      if (FieldValue(std::string(choice)) != standard)
         return std::string(choice);
   }
   const double middle = 0.5 * (field.range.lower + field.range.upper);
@@ -117,7 +117,19 @@ TEST(Fields, AbsentKeysCanBeSetAndTakenAway) {
     set_value(gear, field.path, std::monostate{});
     EXPECT_EQ(field.read(gear), FieldValue()) << field.path;
   }
-  EXPECT_EQ(absent_keys, 4); // eccentricity, wrap angle, force angle, reference section
+  EXPECT_EQ(absent_keys, 5); // eccentricity, wrap angle, force angle, force direction, reference section
+}
+
+TEST(Fields, ForceDirectionIsTheNormalUnlessAToothHasOnePointOnly) {
+  Contact contact;
+  EXPECT_EQ(contact.direction_of_force(), ForceDirection::circumferential);
+  contact.flank_points = 2;
+  EXPECT_EQ(contact.direction_of_force(), ForceDirection::flank_normal);
+  contact.flank_points = 1;
+  contact.face_slices = 2;
+  EXPECT_EQ(contact.direction_of_force(), ForceDirection::flank_normal);
+  contact.force_direction = ForceDirection::circumferential;
+  EXPECT_EQ(contact.direction_of_force(), ForceDirection::circumferential);
 }
 
 TEST(Fields, ClosedEndsAreAllowedOpenEndsAreNot) {
