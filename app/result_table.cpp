@@ -36,9 +36,11 @@ void backlash(const BacklashResult& b, Out out) {
       b.min_um, b.min_phi_deg, reach, b.tooth.size(),
       b.interference && !b.assembled ? "; INTERFERENCE: flanks overlap before any load" : "");
   if (const auto& a = b.assembled) {
-    fmt::format_to(out, "  … assembled   least {:+.3f} µm at φ = {:.3f}°, z = {:.2f} mm over the face of the coned cup{}\n",
-                   a->min_um, a->min_phi_deg, a->min_z_mm,
-                   a->interference ? "; INTERFERENCE: flanks overlap before any load" : "");
+    fmt::format_to(
+        out,
+        "  … assembled   least {:+.3f} µm at φ = {:.3f}°, z = {:.2f} mm over the face of the coned cup{}\n",
+        a->min_um, a->min_phi_deg, a->min_z_mm,
+        a->interference ? "; INTERFERENCE: flanks overlap before any load" : "");
   }
 }
 
@@ -86,9 +88,14 @@ void loads(const std::vector<LoadResult>& results, Out out) {
   for (const LoadResult& load : results) {
     const PressurePeak& p = load.peak_pressure;
     if (p.mpa > 0.0)
-      fmt::format_to(out, "Pressure        {:.0f} MPa at {:.3f} N·m{}: φ = {:.2f}°, radius {:.3f} mm of the flank, z = {:.2f} mm{}\n",
+      fmt::format_to(out,
+                     "Pressure        {:.0f} MPa at {:.3f} N·m{}: φ = {:.2f}°, radius {:.3f} mm of the "
+                     "flank, z = {:.2f} mm{}\n",
                      p.mpa, load.torque_nm, load.direction == Direction::coast ? " (coast)" : "", p.phi_deg,
-                     p.flank_radius_mm, p.z_mm, p.edge ? "; a tip edge: at least that" : "");
+                     p.flank_radius_mm, p.z_mm,
+                     p.edge ? fmt::format("; a tip edge: at least that (flank on flank: {:.0f} MPa)",
+                                          load.peak_flank_pressure.mpa)
+                            : std::string());
   }
 }
 

@@ -262,7 +262,7 @@ Figure backlash_map(const ForwardResult& result, const AssembledBacklash& b) {
       "0,1 "
       "offset character 0,0.9 left\n"
       "set contour base\nset cntrparam levels incremental {12},{11},{6}\nunset clabel\n"
-      "set for [i=1:40] linetype i linecolor '#ffffff' linewidth 0.8\nset pm3d map interpolate 4,4\n"
+      "set for [i=1:40] linetype i linecolor '#ffffff' linewidth 0.8\nset pm3d map interpolate 2,2\n"
       "splot '{13}.dat' index 0 using 1:2:3 with pm3d nocontour, '' index 0 using 1:2:3 with lines "
       "nosurface, "
       "'' index 1 using 1:2:(0) with points pointtype 6 pointsize 0.9 linewidth 2 linecolor '#D55E00' "

@@ -27,7 +27,7 @@ struct Asked {
 struct Side {
   std::vector<int> tooth;
   std::vector<double> phi_deg, force_n, loaded_backlash_um, pressure_mpa;
-  PressurePeak peak_pressure;
+  PressurePeak peak_pressure, peak_flank_pressure; ///< of all points; without tip edges
   PointResults points; ///< empty with one point a tooth
 };
 
@@ -52,14 +52,18 @@ Side side_of(const std::vector<LoadedPoint>& points, const std::vector<double>& 
     side.force_n.back() += force_n[i];
     side.loaded_backlash_um.back() = std::min(side.loaded_backlash_um.back(), gap_um[i]);
     side.pressure_mpa.back() = std::max(side.pressure_mpa.back(), contacts[i].pressure_mpa);
-    if (contacts[i].pressure_mpa > side.peak_pressure.mpa) {
-      side.peak_pressure = {.mpa = contacts[i].pressure_mpa,
-                            .tooth = tooth,
-                            .phi_deg = side.phi_deg.back(),
-                            .flank_radius_mm = point.flank_radius_mm,
-                            .z_mm = point.z_mm,
-                            .phase = phase,
-                            .edge = point.edge};
+    if (contacts[i].pressure_mpa > (point.edge ? side.peak_pressure : side.peak_flank_pressure).mpa) {
+      const PressurePeak peak{.mpa = contacts[i].pressure_mpa,
+                              .tooth = tooth,
+                              .phi_deg = side.phi_deg.back(),
+                              .flank_radius_mm = point.flank_radius_mm,
+                              .z_mm = point.z_mm,
+                              .phase = phase,
+                              .edge = point.edge};
+      if (!point.edge)
+        side.peak_flank_pressure = peak;
+      if (peak.mpa > side.peak_pressure.mpa)
+        side.peak_pressure = peak;
     }
     side.points.tooth.push_back(tooth);
     side.points.flank_radius_mm.push_back(point.flank_radius_mm);
@@ -100,6 +104,7 @@ LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction dir
   result.points = std::move(drive.points);
   result.pressure_mpa = std::move(drive.pressure_mpa);
   result.peak_pressure = drive.peak_pressure;
+  result.peak_flank_pressure = drive.peak_flank_pressure;
   if (carries(load.coast_force_n)) {
     Side coast = side_of(model.coast_points(), load.coast_force_n, load.coast_gap_um, mirrored, phase, pressure);
     result.coast = {std::move(coast.tooth), std::move(coast.phi_deg), std::move(coast.force_n), 0.0,
@@ -168,7 +173,7 @@ private:
   std::optional<Failure> one_case(const Asked& asked, Direction direction) {
     std::optional<LoadResult> worst;
     std::vector<PhaseForces> phases;
-    PressurePeak peak_pressure;
+    PressurePeak peak_pressure, peak_flank_pressure;
     double least_rotation = std::numeric_limits<double>::infinity();
     double most_rotation = -least_rotation;
     for (int j = 0; j < gear_.load.phases; ++j) {
@@ -194,6 +199,8 @@ private:
       phases.push_back({phase, presented.rotation_rad, presented.tooth, presented.force_n});
       if (presented.peak_pressure.mpa > peak_pressure.mpa)
         peak_pressure = presented.peak_pressure;
+      if (presented.peak_flank_pressure.mpa > peak_flank_pressure.mpa)
+        peak_flank_pressure = presented.peak_flank_pressure;
       if (!worst || presented.peak_force_n > worst->peak_force_n)
         worst = std::move(presented);
     }
@@ -206,6 +213,7 @@ private:
     warn_of_slipping(most_rotation);
     worst->phases = std::move(phases);
     worst->peak_pressure = peak_pressure;
+    worst->peak_flank_pressure = peak_flank_pressure;
     result_.load.push_back(std::move(*worst));
     return std::nullopt;
   }

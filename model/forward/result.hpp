@@ -113,6 +113,7 @@ struct LoadResult {
   std::vector<double> loaded_backlash_um;
   std::vector<double> pressure_mpa; ///< largest of the tooth's points
   PressurePeak peak_pressure;
+  PressurePeak peak_flank_pressure; ///< the same where flank touches flank, edges left out
   int engaged_count = 0;
   double engaged_lo_deg = 0.0;
   double engaged_hi_deg = 0.0;

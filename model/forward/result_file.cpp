@@ -84,6 +84,7 @@ void put_load(const LoadResult& load, Group& group) {
   group.put("peak_phi", "deg", load.peak_phi_deg);
   group.put("peak_phase", "1", load.peak_phase);
   group.put("peak_pressure", "MPa", load.peak_pressure.mpa);
+  group.put("peak_flank_pressure", "MPa", load.peak_flank_pressure.mpa);
   group.put("peak_pressure_phi", "deg", load.peak_pressure.phi_deg);
   group.put("peak_pressure_flank_radius", "mm", load.peak_pressure.flank_radius_mm);
   group.put("peak_pressure_z", "mm", load.peak_pressure.z_mm);

@@ -71,6 +71,7 @@ Json load_json(const LoadResult& load) {
   } else {
     json["peak_pressure_at"] = nullptr;
   }
+  json["peak_flank_pressure_mpa"] = load.peak_flank_pressure.mpa;
   json["tangent_stiffness_nm_per_rad"] = load.tangent_stiffness_nm_per_rad;
   json["disc_force_n"] = number(load.disc_force_n);
   if (load.transmission_error_arcsec)
