@@ -72,6 +72,43 @@ TEST(FlankContact, PointsOfAToothAddUpToItsForceAndNoneOverlaps) {
   EXPECT_TRUE(result.certificate->holds());
 }
 
+TEST(FlankContact, GapsAreTakenWhereTheHatsMeasure) {
+  // the tip's half hat: centroid of 1 − x/step over [0, step] is a third of it; every other height is its own
+  EXPECT_DOUBLE_EQ(gap_height(4, 5), 1.0 - 0.25 / 3.0);
+  EXPECT_DOUBLE_EQ(gap_height(3, 5), 0.75);
+  // so the first contact, at the tip's edge, turns alike for few and for many heights (0.1 %; with the gap at the very tip 0.9 %)
+  ForwardModel model({.disk_cache = false});
+  const auto rotation = [&](int heights) {
+    Gear gear = many_points(heights, 1);
+    gear.contact.force_direction.reset(); // along the normal
+    gear.load.torque_nm = {1.0};
+    return model.analyze(gear).load[0].rotation_rad;
+  };
+  EXPECT_NEAR(rotation(5), rotation(17), 0.003 * rotation(17));
+}
+
+TEST(FlankContactNightly, NineHeightsAndSlicesAreWithinTwoPercent) {
+  // docs/flank-contact.md's recommended counts against finer ones, at rated and high torque
+  ForwardModel model({.disk_cache = false});
+  for (const GapModel gaps : {GapModel::kinematic, GapModel::assembled}) {
+    const auto solved = [&](int heights, int slices) {
+      Gear gear = many_points(heights, slices);
+      gear.contact.force_direction.reset();
+      gear.contact.window_deg = {-60.0, 51.0};
+      gear.contact.gaps = gaps;
+      gear.circular_spline.profile_shift = gaps == GapModel::assembled ? 2.4132 : 2.19;
+      gear.load.torque_nm = {7.0, 11.5};
+      return model.analyze(gear);
+    };
+    const ForwardResult usual = solved(9, 9);
+    const ForwardResult fine = solved(13, 13);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_NEAR(usual.load[k].peak_force_n, fine.load[k].peak_force_n, 0.02 * fine.load[k].peak_force_n);
+      EXPECT_NEAR(usual.load[k].rotation_rad, fine.load[k].rotation_rad, 0.005 * fine.load[k].rotation_rad);
+    }
+  }
+}
+
 TEST(FlankContact, OnePointIsTheModelWithoutPoints) {
   ForwardModel model({.disk_cache = false});
   const ForwardResult result = model.analyze(many_points(1, 1));
