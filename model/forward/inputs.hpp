@@ -27,4 +27,7 @@ std::vector<double> contact_rows(const Gear& gear);
 /// The rigid surface that holds the wall; both discs are moved outwards by disc_shift_mm.
 WaveGeneratorSurface surface_of(const Gear& gear, const NeutralCurve& curve, double disc_shift_mm = 0.0);
 
+/// Two discs of this gear with these numbers: eccentricity and radius to the neutral line.
+WaveGeneratorSurface discs_of(const Gear& gear, double eccentricity_mm, double neutral_disc_radius_mm);
+
 } // namespace strainwave

@@ -52,6 +52,10 @@ std::size_t tolerance_dimensions(const ToleranceSource& source, int flexspline_t
   case ToleranceKind::backlash_noise:
     return static_cast<std::size_t>(flexspline_teeth);
   case ToleranceKind::tooth_thickness:
+  case ToleranceKind::profile_slope:
+  case ToleranceKind::profile_form:
+  case ToleranceKind::wear:
+  case ToleranceKind::gear_key:
     return 1;
   case ToleranceKind::cumulative_pitch:
   case ToleranceKind::run_out:
@@ -66,6 +70,11 @@ bool is_per_tooth(ToleranceKind kind) {
   return kind == ToleranceKind::adjacent_pitch || kind == ToleranceKind::backlash_noise;
 }
 
+bool is_of_shape(ToleranceKind kind) {
+  return kind == ToleranceKind::profile_slope || kind == ToleranceKind::profile_form ||
+         kind == ToleranceKind::wear || kind == ToleranceKind::gear_key;
+}
+
 int error_order(const ToleranceSource& source) {
   switch (source.kind) {
   case ToleranceKind::cumulative_pitch:
@@ -75,9 +84,7 @@ int error_order(const ToleranceSource& source) {
     return 1;
   case ToleranceKind::ovality:
     return 2;
-  case ToleranceKind::adjacent_pitch:
-  case ToleranceKind::tooth_thickness:
-  case ToleranceKind::backlash_noise:
+  default:
     break;
   }
   return 0;
@@ -92,13 +99,17 @@ ErrorAtTooth error_vector(const ToleranceSource& source, std::span<const double>
     return {values[0] * std::cos(2.0 * values[1]), values[0] * std::sin(2.0 * values[1])};
   case ToleranceKind::centre_offset:
     return {values[0], values[1]};
-  case ToleranceKind::tooth_thickness:
-    return {values[0], 0.0};
   case ToleranceKind::adjacent_pitch:
   case ToleranceKind::backlash_noise:
+    return {};
+  case ToleranceKind::tooth_thickness:
+  case ToleranceKind::profile_slope:
+  case ToleranceKind::profile_form:
+  case ToleranceKind::wear:
+  case ToleranceKind::gear_key:
     break;
   }
-  return {};
+  return {values[0], 0.0};
 }
 
 ToothMotion error_motion(const ToleranceSource& source, const ErrorAtTooth& error, const MeshPlace& place,
@@ -129,7 +140,7 @@ ToothMotion error_motion(const ToleranceSource& source, const ErrorAtTooth& erro
   case ToleranceKind::ovality: // with t = 2 (theta - psi): first = A cos t, second = -A sin t
     return against_space(place, mesh, error.first, 0.5 * error.second,
                          -1.5 * error.second / mesh.circular_spline_pitch_mm);
-  case ToleranceKind::backlash_noise:
+  default:
     break;
   }
   return {};

@@ -40,7 +40,7 @@ struct MeshNumbers {
 
 /// What an error comes down to at one tooth k of its member, in two numbers. Per-tooth errors: delta_k and 0.
 /// All others are a vector (p, q) seen in the frame of the tooth, which stands at the angle m theta_k: first
-/// = p cos + q sin, second = q cos - p sin.
+/// = p cos + q sin, second = q cos - p sin. Errors of shape: their size and 0.
 struct ErrorAtTooth {
   double first = 0.0;
   double second = 0.0;
@@ -53,7 +53,10 @@ bool is_per_tooth(ToleranceKind);
 int error_order(const ToleranceSource&);
 ErrorAtTooth error_vector(const ToleranceSource&, std::span<const double> values);
 
-/// Linear in the error. backlash_noise moves nothing.
+/// Errors that are no motion of the whole tooth: backlash_noise and those of the flank's shape.
+bool is_of_shape(ToleranceKind);
+
+/// Linear in the error, for the drive flank. backlash_noise and errors of shape move nothing.
 ToothMotion error_motion(const ToleranceSource&, const ErrorAtTooth&, const MeshPlace&, const MeshNumbers&);
 
 } // namespace strainwave

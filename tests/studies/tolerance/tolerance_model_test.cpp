@@ -182,6 +182,102 @@ TEST(ToleranceModel, WidthOfSpacesIsAProfileShift) {
       });
 }
 
+// Uniform wear w turns the involute by w / r_b: that of the space towards larger angles, that of the tooth backwards. Its
+// ends go along the normal with it, to a radius that differs by some 0.3 w, where the gap of the teeth that can carry load differs by up to 0.01 w.
+TEST(ToleranceModel, WearTurnsTheDriveFlank) {
+  for (const Member member : {Member::flexspline, Member::circular_spline}) {
+    const ToleranceModel model = model_of({{.kind = ToleranceKind::wear, .member = member}});
+    const double base = (member == Member::flexspline ? r1 : r2) * std::cos(20.0 * pi / 180.0);
+    const double wear = 0.0002; // mm
+    const auto c = backlash_of(model, std::vector{wear});
+    for (std::size_t i = 0; i < model.teeth(); ++i) {
+      const MeshPlace place = model.place(i);
+      const ToothBacklash& nominal = model.nominal(i);
+      ToothBacklash exact;
+      if (member == Member::circular_spline) {
+        exact = flanks().drive(place.pose.value, place.space_angle_rad + wear / base);
+      } else { // the flank turns about the axis of the undeformed gear, backwards
+        const double arm = gear().flexspline.neutral_radius_mm, n = place.pose.value.normal_rotation_rad;
+        const double back = -arm * wear / base;
+        exact =
+            flanks().drive(moved(place.pose.value, {-back * std::sin(n), back * std::cos(n), -wear / base}),
+                           place.space_angle_rad);
+      }
+      if (exact.place == nominal.place && nominal.backlash_mm < 0.02) { // those that can carry load
+        EXPECT_NEAR(c[i], exact.backlash_mm, 0.01 * wear) << i;
+      }
+    }
+  }
+}
+
+// A profile slope in the words of gear keys: −a (h − ½) = a (1 − h) − a/2, a slope below 0 and less of a constant.
+TEST(ToleranceModel, ProfileSlopeIsASlopeAndAnOffset) {
+  Gear worn = gear();
+  worn.flank_modification.flexspline.spline_um = {20.0};
+  const ToleranceModel model =
+      ToleranceModel::make(worn, curve(), {{.kind = ToleranceKind::profile_slope}}).value();
+  for (const double a : {0.010, 0.001}) {
+    const auto c = backlash_of(model, std::vector{a});
+    Gear other = worn;
+    other.flank_modification.flexspline.slope_um = -1e3 * a;
+    other.flank_modification.flexspline.spline_um = {20.0 - 0.5e3 * a};
+    const FlankPair pair = FlankPair::make(other).value();
+    for (std::size_t i = 0; i < model.teeth(); ++i) {
+      const ToothBacklash exact = pair.drive(model.place(i).pose.value, model.place(i).space_angle_rad);
+      if (exact.place == model.nominal(i).place) {
+        EXPECT_NEAR(c[i], exact.backlash_mm, a * a) << i; // second order
+      }
+    }
+  }
+}
+
+// Material (f/2) cos 2πh at the place of contact, along the normal: an arc R/r_b as long.
+TEST(ToleranceModel, ProfileFormActsByItsHeightAtTheContact) {
+  const ToleranceModel model =
+      model_of({{.kind = ToleranceKind::profile_form, .member = Member::circular_spline}});
+  const auto c = backlash_of(model, std::vector{0.002});
+  const double base = r2 * std::cos(20.0 * pi / 180.0);
+  for (std::size_t i = 0; i < model.teeth(); ++i) {
+    const ToothBacklash& nominal = model.nominal(i);
+    if (nominal.backlash_mm > 0.02)
+      continue; // edges move along the normal too, which tells where the gap is steep
+    const double h = (nominal.contact_radius_mm - 14.5) / (14.86 - 14.5);
+    const double added = 0.001 * std::cos(2.0 * pi * h);
+    EXPECT_NEAR(c[i] - nominal.backlash_mm, -added * nominal.contact_radius_mm / base, 0.01 * 0.001) << i;
+  }
+}
+
+TEST(ToleranceModel, GearKeysFollowTheDirectGeometry) {
+  expect_second_order(
+      {.kind = ToleranceKind::gear_key, .path = "circular_spline.profile_shift"},
+      [](double a) { return std::vector<double>{2.19 + 10.0 * a}; },
+      [](const ToleranceModel& m, std::size_t i, double a) { return with_shift(m, i, 0.0, 10.0 * a); });
+  const auto cup = ToleranceModel::make(
+      gear(), curve(), {{.kind = ToleranceKind::gear_key, .path = "flexspline.rim_thickness_mm"}});
+  ASSERT_FALSE(cup.ok());
+  EXPECT_EQ(cup.failure().status, Status::not_available);
+}
+
+// Rigid errors close one flank's gap and open the other's; a thicker tooth closes both.
+TEST(ToleranceModel, CoastFlanksFollowTheMirroredGeometry) {
+  for (const ToleranceKind kind : {ToleranceKind::adjacent_pitch, ToleranceKind::tooth_thickness}) {
+    const Member member = Member::circular_spline;
+    const ToleranceModel model = model_of({{.kind = kind, .member = member}});
+    const double a = 0.002;
+    const std::vector<double> values(model.dimensions(), a);
+    std::vector<double> c(model.teeth()), r(model.teeth()), coast(model.teeth());
+    model.backlash(values, 0, c, r, coast);
+    const double turn = kind == ToleranceKind::adjacent_pitch ? a / r2 : -0.5 * a / r2;
+    for (std::size_t i = 0; i < model.teeth(); ++i) {
+      const ToothBacklash exact =
+          flanks().coast(model.place(i).pose.value, model.place(i).space_angle_rad + turn);
+      if (exact.overlap && std::isfinite(model.nominal_coast_mm(i))) {
+        EXPECT_NEAR(coast[i], exact.backlash_mm, 3e-5) << i;
+      }
+    }
+  }
+}
+
 TEST(ToleranceModel, CentreOffsetMovesTheSpacesOfBothLobes) {
   expect_second_order(
       {.kind = ToleranceKind::centre_offset},

@@ -1,0 +1,43 @@
+// Rows of a Monte Carlo study: sample k of the design through all sources.
+
+#include "studies/sampled_gear.hpp"
+#include "studies/sampling/design.hpp"
+
+namespace strainwave {
+
+Outcome<SampledStudy> make_monte_carlo_rows(const StudyFile& study, const RowOptions& options) {
+  const StudySampling& sampling = study.sampling;
+  auto made = SampledGear::make(study, sampling.outputs, sampling.positions, options);
+  if (!made)
+    return made.failure();
+  const std::shared_ptr<const SampledGear> gear = *made;
+  const auto design =
+      std::make_shared<const SampleDesign>(DesignPlan{.design = sampling.design,
+                                                      .seed = static_cast<std::uint64_t>(study.seed),
+                                                      .samples = static_cast<std::uint64_t>(sampling.samples),
+                                                      .dimensions = static_cast<int>(gear->inputs()),
+                                                      .randomisations = sampling.randomisations});
+  SampledStudy rows = study_of(gear);
+  rows.rows = static_cast<std::uint64_t>(sampling.samples);
+  rows.inputs = [gear, design](std::uint64_t first, std::size_t count, std::span<double> to) {
+    design->points(first, count, to);
+    const std::size_t n = gear->inputs();
+    for (std::size_t i = 0; i < count; ++i)
+      gear->sources().transform(to.subspan(i * n, n));
+  };
+  rows.input_values = [gear, inputs = rows.inputs](std::uint64_t first, std::size_t count,
+                                                   std::span<double> to) {
+    const std::size_t n = gear->inputs(), names = gear->sources().sources().size();
+    constexpr std::size_t together = 64;
+    std::vector<double> whole(together * n);
+    for (std::size_t i = 0; i < count; i += together) {
+      const std::size_t here = std::min(together, count - i);
+      inputs(first + i, here, std::span(whole).first(here * n));
+      for (std::size_t j = 0; j < here; ++j)
+        gear->sources().named_values(std::span(whole).subspan(j * n, n), to.subspan((i + j) * names, names));
+    }
+  };
+  return rows;
+}
+
+} // namespace strainwave
