@@ -19,6 +19,7 @@ void add_analyze(CLI::App& app, Command& chosen);
 void add_check(CLI::App& app, Command& chosen);
 void add_export(CLI::App& app, Command& chosen);
 void add_study(CLI::App& app, Command& chosen);
+void add_report(CLI::App& app, Command& chosen);
 void add_eval(CLI::App& app, Command& chosen);
 
 /// Below `study`.
