@@ -20,6 +20,7 @@ void add_check(CLI::App& app, Command& chosen);
 void add_export(CLI::App& app, Command& chosen);
 void add_study(CLI::App& app, Command& chosen);
 void add_check_gradient(CLI::App& app, Command& chosen);
+void add_report(CLI::App& app, Command& chosen);
 void add_eval(CLI::App& app, Command& chosen);
 
 /// Below `study`.

@@ -31,6 +31,7 @@ ExitCode read_and_run(int argc, char** argv) {
   add_study(app, chosen);
   add_check_gradient(app, chosen);
   add_eval(app, chosen);
+  add_report(app, chosen);
   try {
     app.parse(argc, argv);
     if (!chosen)

@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "model/gear_file/gear_schema.hpp"
+#include "studies/study_schema.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -9,14 +10,19 @@
 namespace strainwave::app {
 
 void add_schema(CLI::App& app, Command& chosen) {
-  CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of gear files");
+  CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of gear files, or of study files");
   command->footer("The schema is JSON Schema 2020-12; editors use it to complete and check keys.\n"
                   "Example:  strainwave schema > strainwave.schema.json");
   const auto as_page = std::make_shared<bool>(false);
   command->add_flag("--reference", *as_page, "Print the reference page of the keys instead, in Markdown");
-  command->callback([&chosen, as_page] {
-    chosen = [as_page] {
-      print(*as_page ? reference_page() : json_schema().dump(2) + "\n");
+  const auto of_studies = std::make_shared<bool>(false);
+  command->add_flag("--study", *of_studies, "Of study files instead of gear files");
+  command->callback([&chosen, as_page, of_studies] {
+    chosen = [as_page, of_studies] {
+      if (*as_page)
+        print(*of_studies ? study_reference_page() : reference_page());
+      else
+        print((*of_studies ? study_json_schema() : json_schema()).dump(2) + "\n");
       return ExitCode::done;
     };
   });

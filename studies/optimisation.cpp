@@ -5,6 +5,7 @@
 #include "studies/optimum_variants.hpp"
 #include "studies/result_folder.hpp"
 #include "studies/results_file.hpp"
+#include "studies/sampled_study.hpp"
 #include "studies/search_journal.hpp"
 
 #include <fmt/format.h>
@@ -151,6 +152,7 @@ std::vector<FailureCount> count_failures(const std::vector<StoredPoint>& points)
 StudyVocabulary study_vocabulary() {
   return {.outputs = gear_response_names(),
           .methods = method_names(),
+          .sampled_outputs = sampled_response_names(),
           .unavailable = [](std::string_view output, const StudyFile& study) {
             return find_unavailable_response(output, study.gear, study_loads(study));
           }};

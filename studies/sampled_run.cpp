@@ -53,16 +53,23 @@ Outcome<SampledStudy> make_rows(const StudyFile& study, const RowOptions& option
   switch (study.kind) {
   case StudyKind::sweep:
     return make_sweep_rows(study, options);
-#ifdef STRAINWAVE_TOLERANCE_ROWS
   case StudyKind::monte_carlo:
     return make_monte_carlo_rows(study, options);
   case StudyKind::sensitivity:
     return make_sensitivity_rows(study, options);
-#endif
   default:
-    throw FieldError("kind", fmt::format("the kind \"{}\" cannot be run by this version",
-                                         study_kinds[static_cast<std::size_t>(study.kind)]));
+    throw std::logic_error("the points of a search are not known in advance");
   }
+}
+
+std::span<const std::string_view> sampled_response_names() {
+  static const auto names = [] {
+    std::vector<std::string_view> all;
+    for (const Response& response : sampled_responses())
+      all.push_back(response.name);
+    return all;
+  }();
+  return names;
 }
 
 std::uint64_t sampled_model_hash(const SampledStudy& rows) {

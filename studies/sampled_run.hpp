@@ -44,7 +44,7 @@ struct SampledReport {
   bool whole = false;           ///< every row of the study is in the table, or the stop rule was content
 };
 
-/// The maker of the study's kind. Throws FieldError for kinds that this program was built without.
+/// By the maker of the study's kind.
 Outcome<SampledStudy> make_rows(const StudyFile& study, const RowOptions& options);
 bool is_sampled(StudyKind kind);
 

@@ -84,5 +84,7 @@ Outcome<SampledStudy> make_sensitivity_rows(const StudyFile& study,
 /// The outputs that a row of monte_carlo or sensitivity can have; study files are checked against their names
 /// (StudyVocabulary::sampled_outputs). Response::unit is for people ("µm").  monte_carlo_rows.cpp
 std::span<const Response> sampled_responses();
+/// Their names alone, in the same order.  sampled_run.cpp
+std::span<const std::string_view> sampled_response_names();
 
 } // namespace strainwave

@@ -23,8 +23,7 @@ void add_range(Json& schema, const Field& field) {
     schema[field.range.upper_open ? "exclusiveMaximum" : "maximum"] = as_written(field.range.upper);
 }
 
-Json default_json(const Field& field) {
-  const FieldValue value = field.read(Gear{});
+Json as_json(const FieldValue& value) {
   return std::visit(
       [](const auto& held) {
         if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
@@ -35,7 +34,13 @@ Json default_json(const Field& field) {
       value);
 }
 
-Json field_schema(const Field& field) {
+Json default_json(const Field& field) {
+  return as_json(field.read(Gear{}));
+}
+
+} // namespace
+
+Json field_schema(const Field& field, const FieldValue& default_value) {
   Json schema;
   std::string description(field.sentence);
   if (!field.unit.empty())
@@ -69,9 +74,15 @@ Json field_schema(const Field& field) {
   } else {
     add_range(schema, field);
   }
-  if (!field.required && !field.may_be_absent)
-    schema["default"] = default_json(field);
+  if (!field.required && !std::holds_alternative<std::monostate>(default_value))
+    schema["default"] = as_json(default_value);
   return schema;
+}
+
+namespace {
+
+Json field_schema(const Field& field) {
+  return strainwave::field_schema(field, field.may_be_absent ? FieldValue() : field.read(Gear{}));
 }
 
 /// The object of one table with its keys and the tables inside it.
@@ -113,6 +124,8 @@ std::string default_words(const Field& field) {
   return value == "" ? std::string("empty") : fmt::format("`{}`", value.dump());
 }
 
+} // namespace
+
 std::string allowed_words(const Field& field) {
   if (!field.choices.empty()) {
     std::string words;
@@ -132,8 +145,6 @@ std::string allowed_words(const Field& field) {
                          shortest(range.upper), range.upper_open ? ")" : "]");
   return words;
 }
-
-} // namespace
 
 nlohmann::ordered_json json_schema() {
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "strainwave gear file"}};

@@ -14,6 +14,8 @@ namespace strainwave {
 
 namespace {
 
+constexpr int lock_tries = 40;
+constexpr std::chrono::milliseconds lock_pause{50};
 constexpr std::size_t write_at = 1 << 18; ///< bytes collected before a write in between
 
 [[noreturn]] void throw_errno(const std::string& what) {
@@ -61,7 +63,13 @@ JournalWriter::~JournalWriter() {
 }
 
 void JournalWriter::open_and_replay(const JournalHeader& header, const RecordVisitor& replay) {
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+  // a writer that was killed keeps its lock until the system has put it away
+  int tries = 0;
+  while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EINTR || (errno == EWOULDBLOCK && ++tries < lock_tries)) {
+      std::this_thread::sleep_for(lock_pause);
+      continue;
+    }
     if (errno == EWOULDBLOCK)
       throw JournalError(JournalFault::locked,
                          path_ + " is being written by another process; wait for it or stop it");

@@ -18,13 +18,13 @@ protected:
     int killed = 0, ended = 0;
     while (killed < kills) {
       const double after = longest_s * (0.02 + 0.98 * static_cast<double>(random()) / 4294967296.0);
-      const int code =
-          shell(fmt::format("timeout -s KILL {:.3f} PROGRAM study run {} --out parts", after, study)).code;
-      if (code == 137) {
+      const End end =
+          shell(fmt::format("timeout -s KILL {:.3f} PROGRAM study run {} --out parts", after, study));
+      if (end.code == 137) {
         ++killed;
         continue;
       }
-      ASSERT_EQ(code, 0);
+      ASSERT_EQ(end.code, 0) << end.err;
       ASSERT_TRUE(identical("whole", "parts"));
       ++ended;
       std::filesystem::remove_all(folder / "parts");
@@ -44,6 +44,17 @@ protected:
                      more);
   }
 
+  void write_sampled(const std::string& kind, const std::string& more) {
+    write_sweep();
+    const std::string head = file_text((folder / "sweep.toml").string());
+    folder.write(kind + ".toml",
+                 edited(head.substr(0, head.find("[[variable]]")), "\"sweep\"", "\"" + kind + "\"") +
+                     "[[source]]\nname = \"pitch\"\nkind = \"adjacent_pitch\"\n"
+                     "distribution = { normal = { mean = 0.0, std = 1.0 } }\n[[source]]\nname = \"run-out\"\n"
+                     "kind = \"run_out\"\ndistribution = { lognormal = { mean = 1.0, std = 0.5 } }\n" +
+                     more);
+  }
+
   void kill_kind(const std::string& kind, int kills) {
     if (kind == "sweep") {
       write_sweep();
@@ -52,6 +63,10 @@ protected:
     } else if (kind == "pareto") {
       write_search(kind, "[pareto]\noutput = \"rotation_rad\"\npoints = 3\n");
     }
+    if (kind == "monte_carlo")
+      write_sampled(kind, "[sampling]\ndesign = \"sobol\"\nsamples = 65536\noutputs = [\"peak_force_n\"]\n");
+    if (kind == "sensitivity")
+      write_sampled(kind, "[sensitivity]\nsamples = 16384\noutputs = [\"peak_force_n\"]\n");
     kill_again_and_again(kind + ".toml", kills, 0.5);
   }
 };
@@ -62,6 +77,10 @@ TEST_F(StudyCrash, TenKillsOfASweep) {
 
 TEST_F(StudyCrash, TenKillsOfAnOptimisation) {
   kill_kind("optimize", 10);
+}
+
+TEST_F(StudyCrash, TenKillsOfAMonteCarlo) {
+  kill_kind("monte_carlo", 10);
 }
 
 class StudyCrashNightly : public StudyCrash {};
@@ -76,6 +95,14 @@ TEST_F(StudyCrashNightly, AHundredKillsOfAnOptimisation) {
 
 TEST_F(StudyCrashNightly, AHundredKillsOfAFront) {
   kill_kind("pareto", 100);
+}
+
+TEST_F(StudyCrashNightly, AHundredKillsOfAMonteCarlo) {
+  kill_kind("monte_carlo", 100);
+}
+
+TEST_F(StudyCrashNightly, AHundredKillsOfASensitivity) {
+  kill_kind("sensitivity", 100);
 }
 
 TEST_F(StudyCrash, TornAndFlippedTailsAreNamedCutAndEvaluatedAgain) {
