@@ -5,33 +5,19 @@
 #include "model/forward/inputs.hpp"
 #include "studies/sampled_gear.hpp"
 
-#include "tests/studies/studies.hpp"
+#include "tests/studies/cup_cache.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <numbers>
-#include <unistd.h>
 
 namespace strainwave {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-/// Rows whose cup is solved once for this program, in a cache of its own.
-RowOptions rows_here() {
-  static const std::filesystem::path folder = [] {
-    auto made = std::filesystem::temp_directory_path() / fmt::format("strainwave-sampled-{}", getpid());
-    setenv("STRAINWAVE_CACHE", made.c_str(), 1);
-    return made;
-  }();
-  static const std::shared_ptr<void> remove(nullptr, [](void*) { std::filesystem::remove_all(folder); });
-  return {};
-}
 
 StudySource one_number(std::string name, std::string path, double mean, double std) {
   return {.name = std::move(name),
@@ -61,7 +47,7 @@ StudyFile study_with(std::vector<StudySource> sources) {
 }
 
 std::shared_ptr<const SampledGear> gear_of(const StudyFile& study, int positions = 1) {
-  return SampledGear::make(study, {}, positions, rows_here()).value();
+  return SampledGear::make(study, {}, positions, cup_cache()).value();
 }
 
 struct Rows {
@@ -178,7 +164,7 @@ TEST(SampledGear, DiscsAreRightToSecondOrder) {
 
 /// Draws rows as the study does.
 std::vector<double> drawn(const StudyFile& study, std::uint64_t first, std::size_t count) {
-  const SampledStudy rows = make_monte_carlo_rows(study, rows_here()).value();
+  const SampledStudy rows = make_monte_carlo_rows(study, cup_cache()).value();
   std::vector<double> values(count * rows.model->inputs());
   rows.inputs(first, count, values);
   return values;
@@ -233,7 +219,7 @@ TEST(SampledGear, RowsDoNotDependOnTheirNeighboursOrTheWorker) {
       EXPECT_EQ(together.outputs[k * together.width + c], alone.outputs[c]);
   }
   std::vector<double> one(n);
-  const SampledStudy rows = make_monte_carlo_rows(study, rows_here()).value();
+  const SampledStudy rows = make_monte_carlo_rows(study, cup_cache()).value();
   rows.inputs(7, 1, one);
   EXPECT_TRUE(std::equal(one.begin(), one.end(), inputs.begin() + static_cast<std::ptrdiff_t>(7 * n)));
 }
@@ -285,7 +271,7 @@ TEST(SampledGear, CorrelatedSourcesStandSideBySideAndAreCorrelated) {
                                 error("thick", SourceKind::tooth_thickness, Normal{0.0, 0.5})});
   study.correlations = {{"thick", "torque", 0.8}};
   study.sampling.samples = 4096;
-  const SampledStudy rows = make_monte_carlo_rows(study, rows_here()).value();
+  const SampledStudy rows = make_monte_carlo_rows(study, cup_cache()).value();
   ASSERT_EQ(rows.input_columns.size(), 4u);
   EXPECT_EQ(rows.input_columns[0].unit, "N.m");
   EXPECT_EQ(rows.input_columns[3].unit, "um");
@@ -305,7 +291,7 @@ TEST(SampledGear, CorrelatedSourcesStandSideBySideAndAreCorrelated) {
 
 std::string refused(const StudyFile& study) {
   try {
-    (void)make_monte_carlo_rows(study, rows_here());
+    (void)make_monte_carlo_rows(study, cup_cache());
   } catch (const FieldError& error) {
     return error.what();
   }
@@ -323,7 +309,7 @@ TEST(SampledGear, RefusesWhatSamplesCannotHave) {
   EXPECT_NE(refused(coast).find("drive direction"), std::string::npos);
   StudyFile points = teeth_study();
   points.gear.contact.flank_points = 4;
-  const auto failure = make_monte_carlo_rows(points, rows_here());
+  const auto failure = make_monte_carlo_rows(points, cup_cache());
   ASSERT_FALSE(failure.ok());
   EXPECT_EQ(failure.failure().status, Status::not_available);
 }
