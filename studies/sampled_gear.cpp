@@ -149,7 +149,7 @@ void SampledGear::find_near() {
   }
 }
 
-SampledStudy study_of(const std::shared_ptr<const SampledGear>& gear) {
+SampledStudy study_of(const std::shared_ptr<const SampledGear>& gear, RowInputs inputs) {
   SampledStudy study;
   for (const SampledSources::Source& source : gear->sources().sources())
     study.input_columns.push_back({source.name, source.unit});
@@ -157,6 +157,23 @@ SampledStudy study_of(const std::shared_ptr<const SampledGear>& gear) {
   study.status_names = SampledGear::status_names();
   study.model_content = "samples of the whole ring 1";
   study.model = std::make_unique<SharedRows>(gear);
+  study.inputs = inputs;
+  study.input_values = [gear, inputs](std::uint64_t first, std::size_t count, std::span<double> to) {
+    const std::size_t n = gear->inputs(), names = gear->sources().sources().size();
+    constexpr std::size_t together = 64;
+    std::vector<double> rows(together * n);
+    for (std::size_t i = 0; i < count; i += together) {
+      const std::size_t here = std::min(together, count - i);
+      inputs(first + i, here, std::span(rows).first(here * n));
+      for (std::size_t j = 0; j < here; ++j)
+        gear->sources().named_values(std::span(rows).subspan(j * n, n), to.subspan((i + j) * names, names));
+    }
+  };
+  study.describe_row = [gear, inputs](std::uint64_t row) {
+    std::vector<double> values(gear->inputs());
+    inputs(row, 1, values);
+    return gear->describe(row, values);
+  };
   return study;
 }
 

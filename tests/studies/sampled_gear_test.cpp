@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -287,6 +288,28 @@ TEST(SampledGear, CorrelatedSourcesStandSideBySideAndAreCorrelated) {
               5.0 / std::sqrt(4096.0)); // Pearson's of a normal pair with this rank
   EXPECT_NEAR(b, 0.0, 5.0 / std::sqrt(4096.0));
   EXPECT_NEAR(spread, 0.2, 0.002); // root mean square of 140
+}
+
+TEST(SampledGear, ARowIsDescribedWithAllItsTeeth) {
+  const StudyFile study = teeth_study();
+  const SampledStudy rows = make_monte_carlo_rows(study, cup_cache()).value();
+  const auto gear = gear_of(study);
+  const std::vector<double> inputs = drawn(study, 3, 1);
+  const Rows known = evaluate(*gear, inputs);
+  const auto json = nlohmann::json::parse(rows.describe_row(3));
+  EXPECT_EQ(json["row"], 3);
+  EXPECT_EQ(json["status"], "ok");
+  EXPECT_EQ(json["sources"]["flexspline"].size(), 140u);
+  EXPECT_EQ(json["sources"]["circular spline"][141].get<double>(), inputs[281]);
+  const auto& load = json["loads"][0][0];
+  double torque = 0.0, peak = 0.0;
+  for (std::size_t i = 0; i < load["force_n"].size(); ++i) {
+    torque += load["force_n"][i].get<double>() * load["contact_radius_mm"][i].get<double>();
+    peak = std::max(peak, load["force_n"][i].get<double>());
+  }
+  EXPECT_NEAR(torque, 7000.0, 1e-6);
+  EXPECT_EQ(peak, known(0, "peak_force_n"));
+  EXPECT_EQ(json["outputs"]["rotation_rad"].get<double>(), known(0, "rotation_rad"));
 }
 
 std::string refused(const StudyFile& study) {
