@@ -3,8 +3,10 @@
 #include "studies/study_units.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <tuple>
 
 namespace strainwave {
 
@@ -13,8 +15,9 @@ namespace {
 /// Teeth farther from contact than this are moved by first derivatives even when the discs change: 0.03 mm of gap are more
 /// than any sample closes.
 constexpr double near_mm = 0.03;
-/// Part of a distribution outside the interpolant at either end: those rows are assembled.
-constexpr double tail = 1e-5;
+/// Part of a distribution outside the interpolant at either end: those rows are assembled, or have no result. Wide
+/// distributions whose corners have none themselves get a smaller box.
+constexpr std::array tails{1e-5, 1e-3, 1e-2};
 
 void refuse_loads(const StudyFile& study) {
   for (std::size_t i = 0; i < study.load_cases.size(); ++i) {
@@ -114,22 +117,25 @@ std::optional<Failure> SampledGear::add_discs() {
   const auto* e = sources_.find(SourceRole::eccentricity);
   if (!u0 && !e)
     return std::nullopt;
-  DiscBox box;
-  box.u0_lower = box.u0_upper = mesh_.gear.wave_generator.max_radial_deformation_mm;
-  box.e_lower = box.e_upper = *mesh_.curve.summary().eccentricity_mm;
-  const auto widen = [](const SampledSources::Source* source, double& lower, double& upper) {
+  const auto range = [](const SampledSources::Source* source, double tail, double nominal) {
     if (!source)
-      return;
+      return std::pair{nominal, nominal};
     const Quantile quantile(source->distribution);
-    lower = quantile(tail);
-    upper = quantile(1.0 - tail);
+    return std::pair{quantile(tail), quantile(1.0 - tail)};
   };
-  widen(u0, box.u0_lower, box.u0_upper);
-  widen(e, box.e_lower, box.e_upper);
-  auto surface = DiscSurface::make(mesh_, box);
-  if (!surface)
-    return surface.failure();
-  discs_ = std::move(surface).value();
+  for (const double tail : tails) {
+    DiscBox box;
+    std::tie(box.u0_lower, box.u0_upper) =
+        range(u0, tail, mesh_.gear.wave_generator.max_radial_deformation_mm);
+    std::tie(box.e_lower, box.e_upper) = range(e, tail, *mesh_.curve.summary().eccentricity_mm);
+    auto surface = DiscSurface::make(mesh_, box);
+    if (surface) {
+      discs_ = std::move(surface).value();
+      break;
+    }
+    if (tail == tails.back())
+      return surface.failure();
+  }
   auto nominal = mesh_at_discs(mesh_, mesh_.gear.wave_generator.max_radial_deformation_mm,
                                *mesh_.curve.summary().eccentricity_mm);
   if (!nominal)

@@ -384,6 +384,20 @@ TEST(SampledGear, ACoastFlankThatTouchesIsNoResult) {
   EXPECT_NE(result.messages[0].text.find("coast flank"), std::string::npos);
 }
 
+TEST(SampledGear, DiscsThatCannotBeAreFailedRowsAndWideSourcesKeepASmallerBox) {
+  const StudyFile study =
+      study_with({one_number("u0", "wave_generator.max_radial_deformation_mm", 0.2, 0.004),
+                  one_number("e", "wave_generator.eccentricity_mm", 0.6, 0.01)});
+  const auto gear = gear_of(study); // 4.3 standard deviations of both would leave e/u0 > 2.752
+  ASSERT_TRUE(gear->discs());
+  EXPECT_FALSE(gear->discs()->contains(0.217, 0.6));
+  const std::vector<double> inputs{0.2, 0.6, 0.23, 0.6};
+  const Rows rows = evaluate(*gear, inputs);
+  EXPECT_EQ(rows.status[0], row_ok);
+  ASSERT_EQ(rows.status[1], row_status_of(Status::no_wrap));
+  EXPECT_NE(rows.messages[0].text.find("e/u0"), std::string::npos);
+}
+
 TEST(SampledGear, CorrelatedSourcesStandSideBySideAndAreCorrelated) {
   StudyFile study = study_with({one_number("torque", "load.torque_nm[0]", 7.0, 0.1),
                                 error("teeth", SourceKind::adjacent_pitch, Normal{0.0, 0.2}),
