@@ -17,26 +17,14 @@ Outcome<SampledStudy> make_monte_carlo_rows(const StudyFile& study, const RowOpt
                                                       .samples = static_cast<std::uint64_t>(sampling.samples),
                                                       .dimensions = static_cast<int>(gear->inputs()),
                                                       .randomisations = sampling.randomisations});
-  SampledStudy rows = study_of(gear);
+  SampledStudy rows =
+      study_of(gear, [gear, design](std::uint64_t first, std::size_t count, std::span<double> to) {
+        design->points(first, count, to);
+        const std::size_t n = gear->inputs();
+        for (std::size_t i = 0; i < count; ++i)
+          gear->sources().transform(to.subspan(i * n, n));
+      });
   rows.rows = static_cast<std::uint64_t>(sampling.samples);
-  rows.inputs = [gear, design](std::uint64_t first, std::size_t count, std::span<double> to) {
-    design->points(first, count, to);
-    const std::size_t n = gear->inputs();
-    for (std::size_t i = 0; i < count; ++i)
-      gear->sources().transform(to.subspan(i * n, n));
-  };
-  rows.input_values = [gear, inputs = rows.inputs](std::uint64_t first, std::size_t count,
-                                                   std::span<double> to) {
-    const std::size_t n = gear->inputs(), names = gear->sources().sources().size();
-    constexpr std::size_t together = 64;
-    std::vector<double> whole(together * n);
-    for (std::size_t i = 0; i < count; i += together) {
-      const std::size_t here = std::min(together, count - i);
-      inputs(first + i, here, std::span(whole).first(here * n));
-      for (std::size_t j = 0; j < here; ++j)
-        gear->sources().named_values(std::span(whole).subspan(j * n, n), to.subspan((i + j) * names, names));
-    }
-  };
   return rows;
 }
 

@@ -3,8 +3,10 @@
 #include "studies/study_units.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <tuple>
 
 namespace strainwave {
 
@@ -13,8 +15,9 @@ namespace {
 /// Teeth farther from contact than this are moved by first derivatives even when the discs change: 0.03 mm of gap are more
 /// than any sample closes.
 constexpr double near_mm = 0.03;
-/// Part of a distribution outside the interpolant at either end: those rows are assembled.
-constexpr double tail = 1e-5;
+/// Part of a distribution outside the interpolant at either end: those rows are assembled, or have no result. Wide
+/// distributions whose corners have none themselves get a smaller box.
+constexpr std::array tails{1e-5, 1e-3, 1e-2};
 
 void refuse_loads(const StudyFile& study) {
   for (std::size_t i = 0; i < study.load_cases.size(); ++i) {
@@ -114,22 +117,25 @@ std::optional<Failure> SampledGear::add_discs() {
   const auto* e = sources_.find(SourceRole::eccentricity);
   if (!u0 && !e)
     return std::nullopt;
-  DiscBox box;
-  box.u0_lower = box.u0_upper = mesh_.gear.wave_generator.max_radial_deformation_mm;
-  box.e_lower = box.e_upper = *mesh_.curve.summary().eccentricity_mm;
-  const auto widen = [](const SampledSources::Source* source, double& lower, double& upper) {
+  const auto range = [](const SampledSources::Source* source, double tail, double nominal) {
     if (!source)
-      return;
+      return std::pair{nominal, nominal};
     const Quantile quantile(source->distribution);
-    lower = quantile(tail);
-    upper = quantile(1.0 - tail);
+    return std::pair{quantile(tail), quantile(1.0 - tail)};
   };
-  widen(u0, box.u0_lower, box.u0_upper);
-  widen(e, box.e_lower, box.e_upper);
-  auto surface = DiscSurface::make(mesh_, box);
-  if (!surface)
-    return surface.failure();
-  discs_ = std::move(surface).value();
+  for (const double tail : tails) {
+    DiscBox box;
+    std::tie(box.u0_lower, box.u0_upper) =
+        range(u0, tail, mesh_.gear.wave_generator.max_radial_deformation_mm);
+    std::tie(box.e_lower, box.e_upper) = range(e, tail, *mesh_.curve.summary().eccentricity_mm);
+    auto surface = DiscSurface::make(mesh_, box);
+    if (surface) {
+      discs_ = std::move(surface).value();
+      break;
+    }
+    if (tail == tails.back())
+      return surface.failure();
+  }
   auto nominal = mesh_at_discs(mesh_, mesh_.gear.wave_generator.max_radial_deformation_mm,
                                *mesh_.curve.summary().eccentricity_mm);
   if (!nominal)
@@ -149,7 +155,7 @@ void SampledGear::find_near() {
   }
 }
 
-SampledStudy study_of(const std::shared_ptr<const SampledGear>& gear) {
+SampledStudy study_of(const std::shared_ptr<const SampledGear>& gear, RowInputs inputs) {
   SampledStudy study;
   for (const SampledSources::Source& source : gear->sources().sources())
     study.input_columns.push_back({source.name, source.unit});
@@ -157,6 +163,23 @@ SampledStudy study_of(const std::shared_ptr<const SampledGear>& gear) {
   study.status_names = SampledGear::status_names();
   study.model_content = "samples of the whole ring 1";
   study.model = std::make_unique<SharedRows>(gear);
+  study.inputs = inputs;
+  study.input_values = [gear, inputs](std::uint64_t first, std::size_t count, std::span<double> to) {
+    const std::size_t n = gear->inputs(), names = gear->sources().sources().size();
+    constexpr std::size_t together = 64;
+    std::vector<double> rows(together * n);
+    for (std::size_t i = 0; i < count; i += together) {
+      const std::size_t here = std::min(together, count - i);
+      inputs(first + i, here, std::span(rows).first(here * n));
+      for (std::size_t j = 0; j < here; ++j)
+        gear->sources().named_values(std::span(rows).subspan(j * n, n), to.subspan((i + j) * names, names));
+    }
+  };
+  study.describe_row = [gear, inputs](std::uint64_t row) {
+    std::vector<double> values(gear->inputs());
+    inputs(row, 1, values);
+    return gear->describe(row, values);
+  };
   return study;
 }
 

@@ -46,6 +46,10 @@ public:
   std::string_view status_name(std::uint8_t status) const override;
   std::unique_ptr<RowWorker> worker() const override;
 
+  /// Everything about one row as a JSON object: the numbers of all sources, and for every position and load the gap, lever
+  /// arm and force of every tooth.
+  std::string describe(std::uint64_t row, std::span<const double> values) const;
+
   static std::vector<std::string> status_names();
   const SampledSources& sources() const { return sources_; }
   const NominalMesh& mesh() const { return mesh_; }
@@ -89,7 +93,7 @@ private:
   std::shared_ptr<const RowModel> rows_;
 };
 
-/// What monte_carlo and sensitivity rows have in common: columns, names, the model. Inputs are filled by the caller.
-SampledStudy study_of(const std::shared_ptr<const SampledGear>& gear);
+/// What monte_carlo and sensitivity rows have in common: columns, names, the model, what is said about a row.
+SampledStudy study_of(const std::shared_ptr<const SampledGear>& gear, RowInputs inputs);
 
 } // namespace strainwave

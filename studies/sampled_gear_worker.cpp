@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 namespace strainwave {
@@ -25,6 +27,14 @@ public:
     }
   }
 
+  /// Called after every solved position and load, with the worker's buffers: for people who ask about one row.
+  std::function<void(const SampledGearWorker&, int position, std::size_t load)> look;
+
+  std::span<const double> backlash_mm() const { return backlash_; }
+  std::span<const double> coast_backlash_mm() const { return coast_; }
+  std::span<const double> contact_radius_mm() const { return radius_; }
+  const SampledState& state() const { return state_; }
+
   void evaluate(RowSlice& slice) override {
     for (std::size_t i = 0; i < slice.rows; ++i)
       row(slice, i, slice.inputs.subspan(i * gear_.inputs(), gear_.inputs()));
@@ -44,6 +54,8 @@ private:
       for (std::size_t k = 0; k < gear_.loads_.size(); ++k) {
         if (!solve(slice, at, values, k, position))
           return;
+        if (look)
+          look(*this, position, k);
         const SampledOutputs outputs = read_outputs({state_, backlash_, radius_, gear_.cosine_, phi_});
         if (first)
           worst = outputs;
@@ -178,6 +190,48 @@ private:
   std::vector<DiscSurface::Change> change_;
   std::array<double, 3> amplitude_{};
 };
+
+std::string SampledGear::describe(std::uint64_t row, std::span<const double> values) const {
+  using nlohmann::ordered_json;
+  ordered_json json{{"row", row}};
+  for (const SampledSources::Source& source : sources_.sources()) {
+    const auto own = values.subspan(source.first, source.count);
+    if (source.one_number())
+      json["sources"][source.name] = own[0];
+    else
+      json["sources"][source.name] = std::vector<double>(own.begin(), own.end());
+  }
+  SampledGearWorker worker(*this);
+  worker.look = [&](const SampledGearWorker& at, int position, std::size_t load) {
+    ordered_json one{{"position", position}, {"rotation_rad", at.state().rotation}};
+    one["torque_nm"] = 1e-3 * at.state().torque;
+    one["changed_wall_stations"] = at.state().changed_stations;
+    for (std::size_t i = 0; i < mesh_.teeth.size(); ++i) {
+      one["phi_deg"].push_back(mesh_.teeth[i].phi_rad * 180.0 / std::numbers::pi);
+      one["backlash_um"].push_back(1e3 * at.backlash_mm()[i]);
+      one["contact_radius_mm"].push_back(at.contact_radius_mm()[i]);
+      one["force_n"].push_back(at.state().force[i]);
+      one["loaded_gap_um"].push_back(1e3 * at.state().gap[i] / cosine_[i]);
+    }
+    json["loads"][load].push_back(std::move(one));
+  };
+  std::vector<double> outputs(wanted_.size());
+  std::uint8_t status = row_ok;
+  std::vector<RowMessage> messages;
+  RowSlice slice{.first = row,
+                 .rows = 1,
+                 .inputs = values,
+                 .outputs = outputs,
+                 .status = {&status, 1},
+                 .messages = &messages};
+  worker.evaluate(slice);
+  json["status"] = status_name(status);
+  if (!messages.empty())
+    json["message"] = messages.front().text;
+  for (std::size_t k = 0; k < wanted_.size() && status == row_ok; ++k)
+    json["outputs"][std::string(sampled_responses()[wanted_[k]].name)] = outputs[k];
+  return json.dump(2);
+}
 
 std::unique_ptr<RowWorker> SampledGear::worker() const {
   return std::make_unique<SampledGearWorker>(*this);

@@ -28,18 +28,6 @@ bool is_pattern(const Source& s) {
          (is_per_tooth(s.tolerance.kind) || s.tolerance.kind == ToleranceKind::centre_offset);
 }
 
-/// Rows named by the numbers of the sources.
-RowInputs named(const std::shared_ptr<const SampledGear>& gear, RowInputs inputs) {
-  return [gear, inputs = std::move(inputs)](std::uint64_t first, std::size_t count, std::span<double> to) {
-    const std::size_t n = gear->inputs(), names = gear->sources().sources().size();
-    std::vector<double> row(n);
-    for (std::size_t i = 0; i < count; ++i) {
-      inputs(first + i, 1, row);
-      gear->sources().named_values(row, to.subspan(i * names, names));
-    }
-  };
-}
-
 RowInputs sobol_rows(const std::shared_ptr<const SampledGear>& gear, std::uint64_t seed) {
   const auto points = std::make_shared<const SobolPoints>(2 * static_cast<int>(gear->inputs()), seed, 0);
   return [gear, points](std::uint64_t first, std::size_t count, std::span<double> to) {
@@ -146,29 +134,30 @@ Outcome<SampledStudy> make_sensitivity_rows(const StudyFile& study, const RowOpt
   const auto& sources = gear->sources().sources();
   const auto seed = static_cast<std::uint64_t>(study.seed);
   const auto samples = static_cast<std::uint64_t>(wanted.samples);
-  SampledStudy rows = study_of(gear);
+  SampledStudy rows;
   switch (wanted.method) {
   case SensitivityMethod::sobol:
     if (2 * gear->inputs() > static_cast<std::size_t>(SobolPoints::max_dimensions))
       throw FieldError("source", fmt::format("the sources are {} numbers; Sobol' indices take at most {}",
                                              gear->inputs(), SobolPoints::max_dimensions / 2));
+    rows = study_of(gear, sobol_rows(gear, seed));
     rows.rows = samples * (sources.size() + 2);
-    rows.inputs = sobol_rows(gear, seed);
     break;
-  case SensitivityMethod::morris:
-    rows.morris.emplace(seed, static_cast<int>(sources.size()), samples, wanted.levels);
-    rows.rows = rows.morris->rows();
-    rows.inputs = morris_rows(gear, *rows.morris, seed);
+  case SensitivityMethod::morris: {
+    const MorrisPoints points(seed, static_cast<int>(sources.size()), samples, wanted.levels);
+    rows = study_of(gear, morris_rows(gear, points, seed));
+    rows.rows = points.rows();
+    rows.morris = points;
     break;
+  }
   case SensitivityMethod::local: {
     const Places which = local_sources(gear->sources());
     if (which->empty())
-      throw FieldError(
-          "source",
-          "errors of single teeth have no derivative by one number; local elasticities need a source "
-          "that is one number");
+      throw FieldError("source",
+                       "errors of single teeth have no derivative by one number; local elasticities need "
+                       "a source that is one number");
+    rows = study_of(gear, local_rows(gear, which));
     rows.rows = 1 + 2 * which->size();
-    rows.inputs = local_rows(gear, which);
     rows.elasticities = [gear, which](const RowTable& table) {
       return elasticities_of(*gear, *which, table);
     };
@@ -177,7 +166,6 @@ Outcome<SampledStudy> make_sensitivity_rows(const StudyFile& study, const RowOpt
   }
   for (const Source& s : sources)
     rows.index_names.push_back(s.name);
-  rows.input_values = named(gear, rows.inputs);
   return rows;
 }
 

@@ -99,10 +99,11 @@ LoadTangent tangent_at(const RingCompliance& ring, const WaveGeneratorSurface& s
   Eigen::MatrixXd answer = Eigen::MatrixXd::Zero(k, n + m); // (K⁻¹ − T)⁻¹ Y
   if (turning) {
     const Eigen::LLT<Eigen::MatrixXd> factor(soft);
-    if (factor.info() != Eigen::Success)
-      throw NotPositiveDefinite(static_cast<int>(n), soft.diagonal().minCoeff());
-    answer = factor.solve(y);
+    turning = factor.info() == Eigen::Success;
+    if (turning)
+      answer = factor.solve(y);
   }
+  result.turning = turning;
   result.problem.m = plain;
   const Eigen::MatrixXd addition = y.transpose() * answer;
   result.problem.m += 0.5 * (addition + addition.transpose());
@@ -132,7 +133,7 @@ LoadTangent tangent_at(const RingCompliance& ring, const WaveGeneratorSurface& s
 
 LoadTangent linear_tangent(const AssembledState& assembled, const LoadProblem& load,
                            const ContactState& state, const ChangedSurface& changed) {
-  LoadTangent result{load.problem, state, {}};
+  LoadTangent result{load.problem, state, {}, false};
   const Eigen::Index n = load.point_count;
   const Eigen::Index m = load.problem.q.size() - n;
   if (changed && m > 0) {

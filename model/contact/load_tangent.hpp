@@ -8,6 +8,10 @@
 // (the forces turn with the wall; G' is symmetric), gap = gap* + n* · (u − u*). So the tangent is an LCP again: M from G', q
 // such that the exact state solves it. What it leaves out is of second order in the distance from that state.
 //
+// Where the turning forces are large enough to push a free cup over (G⁻¹ − t K tᵀ not positive definite: one lobe alone, strong
+// cams), only the contact itself holds it, and there is no such compliance: the directions of the forces then stay those of the
+// loaded state, which leaves out a term of first order, some thousandths of the change of displacement.
+//
 // Moving or resizing the discs by small δ changes the gaps at u* and turns the normals: q + Σ amplitude · mode with the
 // modes δe, δe² (gaps alone) and δR; see DiscChange.
 
@@ -23,6 +27,7 @@ struct LoadTangent {
   ContactState state;     ///< the exact state, which solves it
   Eigen::MatrixXd
       modes; ///< q's change with the discs, see DiscChange; no columns when the surface has no discs
+  bool turning = false; ///< the wall's forces turn with it
 };
 
 /// Small changes of both discs alike: eccentricity and neutral radius, mm.

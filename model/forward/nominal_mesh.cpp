@@ -149,7 +149,7 @@ Outcome<LoadTangent> nominal_load(const NominalMesh& mesh, double value, Control
     auto state = solved(solver, load.problem, value, control, {});
     if (!state)
       return state.failure();
-    return LoadTangent{std::move(load.problem), std::move(state).value(), {}};
+    return LoadTangent{std::move(load.problem), std::move(state).value(), {}, false};
   }
   ChangedSurface changed;
   if (mesh.two_discs()) {
