@@ -40,7 +40,8 @@ public:
   /// std::bad_alloc for disk and memory, FieldError for a faulty wave_generator.table_file.
   ForwardResult analyze(const Gear& gear, Want want = Want::load);
 
-  /// The same result for Want::load; where its status is ok, `solution` is what its derivatives can be had from.
+  /// The same numbers for Want::load without what only people look at (backlash by tooth, compliance of the teeth); where the
+  /// status is ok, `solution` is what the derivatives can be had from.
   ForwardResult analyze(const Gear& gear, std::shared_ptr<const ForwardSolution>& solution);
 
   /// The contact forces of the assembled cup and of every load of the gear, at phase 0 in the drive direction; reuses
