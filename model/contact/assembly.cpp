@@ -1,5 +1,7 @@
 #include "model/contact/assembly.hpp"
 
+#include "model/contact/settled_contact.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,6 +50,32 @@ void summarise(AssembledState& state) {
   }
 }
 
+/// Exact gap and normals on the closed set of the last contact problem; false where the steps do not converge, which leaves
+/// that problem's forces.
+bool settle_closed(const RingCompliance& ring, const WaveGeneratorSurface& surface, AssembledState& state) {
+  std::vector<Eigen::Index> index;
+  ClosedContact closed;
+  for (std::size_t i = 0; i < state.active.size(); ++i) {
+    if (!state.active[i])
+      continue;
+    index.push_back(static_cast<Eigen::Index>(i));
+    closed.stations.push_back(state.stations[i]);
+  }
+  closed.normal = state.normal(index, Eigen::all);
+  closed.wall_force = state.force_n(index);
+  const SettledContact settled = settle(ring, surface, closed, Control::rotation, 0.0);
+  if (!settled.converged)
+    return false;
+  const double largest = settled.wall_force.size() > 0 ? settled.wall_force.maxCoeff() : 0.0;
+  for (std::size_t k = 0; k < index.size(); ++k) {
+    const double force = settled.wall_force(static_cast<Eigen::Index>(k));
+    state.force_n(index[k]) =
+        std::abs(force) <= 1e-13 * largest ? 0.0 : force; // what rounding leaves is none
+    state.normal.row(index[k]) = settled.normal.row(static_cast<Eigen::Index>(k));
+  }
+  return true;
+}
+
 } // namespace
 
 std::string describe_divergence(const char* what, double change_mm, int steps) {
@@ -85,26 +113,28 @@ Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGenerator
   measure();
   ContactProblem problem;
   problem.r = Eigen::VectorXd::Zero(n);
-  NewtonEnd end(options.tolerance_mm);
   bool converged = false;
-  for (int step = 1; step <= options.max_newton_steps; ++step) {
+  for (int step = 1; step <= options.max_newton_steps && !converged; ++step) {
     state.newton_steps = step;
     problem.m = ring.wall_wall(state.stations, state.normal);
     problem.q = state.gap_mm - (state.normal.array() * state.displacement.array()).rowwise().sum().matrix();
     const ContactState solved = solver.solve_at(problem, 0.0, step > 1 ? state.active : ActiveSet{});
     state.force_n = solved.force;
     state.active = solved.active;
+    const bool settled = settle_closed(ring, surface, state);
     state.displacement = ring.wall_displacement(state.stations, state.stations, state.force_components(), {},
                                                 Eigen::VectorXd());
     measure();
-    state.newton_change_mm = (state.gap_mm - solved.gap).cwiseAbs().maxCoeff();
+    state.newton_change_mm =
+        (state.gap_mm.array() * state.force_n.array().sign() - state.gap_mm.cwiseMin(0.0).array())
+            .abs()
+            .maxCoeff();
     if (!std::isfinite(state.newton_change_mm) || !state.displacement.allFinite())
       break;
-    converged = end.reached(
-        state.newton_change_mm,
-        gap_rounding_mm(n, surface.inner_radius_mm(), problem.m.diagonal().maxCoeff() * state.force_n.sum()));
-    if (converged)
-      break;
+    const double rounding =
+        gap_rounding_mm(n, surface.inner_radius_mm(), problem.m.diagonal().maxCoeff() * state.force_n.sum());
+    converged = settled && state.force_n.minCoeff() >= 0.0 &&
+                state.newton_change_mm <= std::max(options.tolerance_mm, rounding);
   }
   if (!converged) {
     return Failure{Status::not_converged, describe_divergence("assembly on the wave generator",

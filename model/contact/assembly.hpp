@@ -4,8 +4,9 @@
 //     gap(w, v) ≥ 0,   p · gap = 0,   (w, v) = G N p      (G: free cup, small displacements; N: normals at (w, v))
 //
 // where the gap is the exact distance of the displaced wall point to the rigid surface. Newton around the LCP: with the
-// normals of the last state, gap ≈ gap₀ + N·Δ(w, v), M = NᵀGN; it starts from the undeformed wall and ends when the
-// exact gap of the new state equals the linear one to `tolerance_mm`. Nothing depends on any evaluation before.
+// normals of the last state, gap ≈ gap₀ + N·Δ(w, v), M = NᵀGN; it starts from the undeformed wall. Each LCP names a closed
+// set, on which gap and normals are then made exact (settled_contact.hpp); it ends when nothing closed pulls and nothing open
+// penetrates by more than `tolerance_mm`. Nothing depends on any evaluation before.
 //
 // The wave generator pushes the wall outwards only; where the cone of the cup lifts the wall off, the force is zero.
 
@@ -14,7 +15,6 @@
 #include "model/contact/wave_generator_surface.hpp"
 #include "model/gear/outcome.hpp"
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -36,7 +36,7 @@ struct AssembledState {
   double contact_lo_rad = 0.0; ///< outermost stations of the lobe around φ = 0 that carry force
   double contact_hi_rad = 0.0;
   int newton_steps = 0;
-  double newton_change_mm = 0.0; ///< last change between exact and linear gap
+  double newton_change_mm = 0.0; ///< what is left: largest gap where closed, penetration where open
 
   /// Forces as (radial, circumferential) components, N.
   Eigen::MatrixX2d force_components() const;
@@ -59,21 +59,6 @@ AssembledState hold_at_lines(const RingCompliance& ring, double angle_rad, doubl
 /// response, so that no displacement is larger than G Σ|F|. A Cholesky solve leaves (3n + 1) ε of that in the gaps of the
 /// closed points (Higham, Accuracy and Stability of Numerical Algorithms, 2002, theorem 10.4), summing the displacements n ε.
 double gap_rounding_mm(Eigen::Index unknowns, double radius_mm, double largest_displacement_mm);
-
-/// Says when Newton steps around the LCP are done: the change is below the tolerance, or below rounding and no longer halved.
-class NewtonEnd {
-public:
-  explicit NewtonEnd(double tolerance_mm) : tolerance_(tolerance_mm) {}
-  bool reached(double change_mm, double rounding_mm) {
-    const bool stalled = !(change_mm < 0.5 * previous_);
-    previous_ = change_mm;
-    return change_mm < tolerance_ || (stalled && change_mm < rounding_mm);
-  }
-
-private:
-  double tolerance_;
-  double previous_ = std::numeric_limits<double>::infinity();
-};
 
 /// "… did not converge: …", with the last change of the gap.
 std::string describe_divergence(const char* what, double change_mm, int steps);

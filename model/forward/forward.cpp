@@ -190,6 +190,8 @@ std::optional<Failure> Analysis::stages() {
     return failure;
   if (auto failure = backlash_as_assembled())
     return failure;
+  if (keep_ && want_ == Want::load)
+    return load();
   if (auto failure = compliance())
     return failure;
   if (want_ == Want::compliance)
@@ -214,16 +216,18 @@ std::optional<Failure> Analysis::kinematics() {
 
 std::optional<Failure> Analysis::first_backlash() {
   StageClock clock(result_, "backlash");
-  auto table = backlash(gear_, **curve_, 0.0);
+  Outcome<Backlash> table =
+      keep_ ? Outcome<Backlash>(teeth_of_window(gear_, 0.0)) : backlash(gear_, **curve_, 0.0);
   if (!table)
     return table.failure();
   const auto minimum = least_backlash(gear_, **curve_);
   if (!minimum)
     return minimum.failure();
   BacklashResult b;
-  b.tooth = table->tooth;
+  if (!keep_)
+    b.tooth = table->tooth;
   const double none = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < table->tooth.size(); ++i) {
+  for (std::size_t i = 0; i < b.tooth.size(); ++i) {
     const ToothBacklash& drive = table->drive[i];
     const ToothBacklash& coast = table->coast[i];
     b.phi_deg.push_back(table->phi_rad[i] / degree);
@@ -248,12 +252,8 @@ std::optional<Failure> Analysis::first_backlash() {
 Outcome<std::vector<LoadedPoint>> Analysis::loaded_points(double phase) {
   if (const auto found = points_of_.find(phase); found != points_of_.end())
     return found->second;
-  if (!tables_.contains(phase)) {
-    auto table = backlash(gear_, **curve_, phase);
-    if (!table)
-      return table.failure();
-    tables_.emplace(phase, std::move(table).value());
-  }
+  if (!tables_.contains(phase))
+    tables_.emplace(phase, teeth_of_window(gear_, phase));
   const UnitResponses& responses = *ring_->responses;
   if (flanks_.empty()) {
     for (const double z : slice_places(responses)) {

@@ -45,7 +45,8 @@ public:
   /// Where the loads of a gear's neighbours may start: its own solutions, drive side, every phase.
   Outcome<LoadStarts> load_starts(const Gear& gear);
 
-  /// The same result for Want::load; where its status is ok, `solution` is what its derivatives can be had from.
+  /// The same numbers for Want::load without what only people look at (backlash by tooth, compliance of the teeth); where the
+  /// status is ok, `solution` is what the derivatives can be had from.
   ForwardResult analyze(const Gear& gear, std::shared_ptr<const ForwardSolution>& solution);
 
   /// The contact forces of the assembled cup and of every load of the gear, at phase 0 in the drive direction; reuses

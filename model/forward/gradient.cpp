@@ -110,10 +110,21 @@ ForwardGradient Analysis::gradient(std::span<const std::string> parameters) {
   g.min_backlash_um = least_backlash_slopes(gear_, **curve_, g.parameters,
                                             result_.backlash->min_phi_deg * std::numbers::pi / 180.0);
   g.load.resize(result_.load.size());
+  std::vector<PhaseLoadSlopes> known; // by solved load
   for (const SolvedLoad& solved : solved_) {
     const PhaseSlopes& slopes = at_phase(solved.model_phase);
     const std::vector<LoadedPoint>& points = solved.model->points();
-    PhaseLoadSlopes of = slopes.of(points, solved.load, solved.control);
+    // The rated torque is often a load of its own as well.
+    const auto same =
+        std::find_if(solved_.begin(), solved_.begin() + static_cast<std::ptrdiff_t>(known.size()),
+                     [&](const SolvedLoad& other) {
+                       return other.model == solved.model && other.control == solved.control &&
+                              other.load.rotation_rad == solved.load.rotation_rad &&
+                              other.load.force_n == solved.load.force_n;
+                     });
+    const auto at = static_cast<std::size_t>(same - solved_.begin());
+    known.push_back(at < known.size() ? known[at] : slopes.of(points, solved.load, solved.control));
+    const PhaseLoadSlopes& of = known.back();
     switch (solved.use) {
     case SolvedLoad::Use::rated:
       g.rated_rotation_rad = of.rotation_rad;

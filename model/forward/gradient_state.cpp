@@ -139,6 +139,12 @@ PhaseLoadSlopes PhaseSlopes::of(const std::vector<LoadedPoint>& points, const Ph
         assembled_->hold * ring.wall_tooth(assembled_->stations, assembled_->normal, functionals);
     at.wall_force =
         wall_wall.topLeftCorner(walls, walls).llt().solve(wall_tooth.topLeftCorner(walls, teeth) * at.force);
+  } else if (linear && in_.surface_slopes.parameter()
+                           .empty()) { // nothing turns the normals: their tangents are not needed
+    wall_wall = Eigen::MatrixXd::Zero(2 * walls, 2 * walls);
+    wall_wall.topLeftCorner(walls, walls) = assembled_->compliance(station, station);
+    wall_tooth = Eigen::MatrixXd::Zero(2 * walls, all);
+    wall_tooth.topRows(walls) = ring.wall_tooth(at.stations, at.normal, functionals);
   } else {
     const std::vector<WallStation> both = twice(at.stations);
     const Eigen::MatrixX2d directions = stacked(at.normal, tangents(at.normal));

@@ -79,6 +79,17 @@ std::vector<SelectedTooth> selected_teeth(const Gear& gear, double phase) {
   return list;
 }
 
+Backlash teeth_of_window(const Gear& gear, double phase) {
+  Backlash result;
+  result.phase = phase;
+  for (const SelectedTooth& tooth : selected_teeth(gear, phase)) {
+    result.tooth.push_back(tooth.tooth);
+    result.lobe.push_back(tooth.lobe);
+    result.phi_rad.push_back(tooth.folded_rad + tooth.lobe * pi);
+  }
+  return result;
+}
+
 bool Backlash::interference() const {
   const auto cuts = [](const ToothBacklash& b) { return b.overlap && b.backlash_mm < 0.0; };
   return std::any_of(drive.begin(), drive.end(), cuts) || std::any_of(coast.begin(), coast.end(), cuts);
@@ -110,10 +121,12 @@ Outcome<Backlash> backlash(const Gear& gear, const NeutralCurve& curve, double p
     any = any || result.drive.back().overlap || result.coast.back().overlap;
   }
   if (teeth.empty() && !gear.contact.window_deg.empty())
-    return Failure{Status::no_overlap,
-                   fmt::format("no tooth stands between the angles of contact.window_deg, {} and {} degrees; the pitch is "
-                               "{:.4g} degrees",
-                               gear.contact.window_deg.front(), gear.contact.window_deg.back(), 360.0 / gear.flexspline.teeth)};
+    return Failure{
+        Status::no_overlap,
+        fmt::format(
+            "no tooth stands between the angles of contact.window_deg, {} and {} degrees; the pitch is "
+            "{:.4g} degrees",
+            gear.contact.window_deg.front(), gear.contact.window_deg.back(), 360.0 / gear.flexspline.teeth)};
   if (!any)
     return Failure{
         Status::no_overlap,

@@ -83,6 +83,9 @@ struct Backlash {
 /// tooth's flanks share a radius).
 Outcome<Backlash> backlash(const Gear&, const NeutralCurve&, double phase = 0.0, double zeta = 0.0);
 
+/// The teeth alone that backlash() would answer for: drive and coast stay empty.
+Backlash teeth_of_window(const Gear&, double phase);
+
 struct LeastBacklash {
   double backlash_mm = 0.0;
   double phi_rad = 0.0;

@@ -216,6 +216,34 @@ TEST(Gradient, OfOtherWaveGeneratorsConvergesWithOrderTwo) {
   expect_order(gear, {u0, "wave_generator.eccentricity_mm"});
 }
 
+TEST(Gradient, AnalysisThatKeepsItsSolutionGivesTheSameNumbers) {
+  for (const int points : {1, 5}) {
+    Gear gear = smooth_gear();
+    gear.contact.flank_points = points;
+    gear.contact.gaps = points == 1 ? GapModel::kinematic : GapModel::assembled;
+    gear.circular_spline.profile_shift = 2.3;
+    gear.load = {.torque_nm = {3.5, 7.0}, .rotation_rad = {2e-3}, .direction = Direction::both, .phases = 3};
+    std::shared_ptr<const ForwardSolution> solution;
+    const ForwardResult lean = ForwardModel().analyze(gear, solution), full = ForwardModel().analyze(gear);
+    ASSERT_EQ(lean.status, Status::ok) << lean.message;
+    ASSERT_EQ(lean.load.size(), full.load.size());
+    const auto same = [](double a, double b) { EXPECT_NEAR(a, b, 1e-12 * std::abs(b)); };
+    for (std::size_t c = 0; c < full.load.size(); ++c) {
+      ASSERT_EQ(lean.load[c].force_n.size(), full.load[c].force_n.size());
+      for (std::size_t i = 0; i < full.load[c].force_n.size(); ++i)
+        same(lean.load[c].force_n[i], full.load[c].force_n[i]);
+      for (std::size_t p = 0; p < full.load[c].phases.size(); ++p)
+        same(lean.load[c].phases[p].rotation_rad, full.load[c].phases[p].rotation_rad);
+      same(lean.load[c].tangent_stiffness_nm_per_rad, full.load[c].tangent_stiffness_nm_per_rad);
+      same(lean.load[c].disc_force_n, full.load[c].disc_force_n);
+    }
+    same(lean.backlash->min_um, full.backlash->min_um);
+    same(lean.assembly->contact_force_n, full.assembly->contact_force_n);
+    same(lean.stiffness->secant_nm_per_rad, full.stiffness->secant_nm_per_rad);
+    same(lean.stiffness->lost_motion_arcmin, full.stiffness->lost_motion_arcmin);
+  }
+}
+
 TEST(Gradient, RefusesKeysThatActThroughTheFiniteElements) {
   const Gear gear = seed_gear();
   for (const char* path :
