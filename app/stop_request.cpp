@@ -32,6 +32,11 @@ bool stop_signalled() {
   return signalled;
 }
 
+void leave_stopped() {
+  report("stopped early with work in flight, which is dropped; run again to go on");
+  std::_Exit(static_cast<int>(ExitCode::stopped));
+}
+
 StopGuard::StopGuard(std::function<bool()> stop)
     : watch_([asked = std::move(stop)](const std::stop_token& done) {
         using namespace std::chrono_literals;

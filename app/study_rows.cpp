@@ -59,7 +59,8 @@ ExitCode run_rows_of(const StudyOptions& options, const StudyFile& study, const 
                                        if (line->due())
                                          line->show(progress_line(progress));
                                      },
-                                 .warn = [](const std::string& sentence) { report(sentence); }});
+                                 .warn = [](const std::string& sentence) { report(sentence); },
+                                 .overdue = leave_stopped});
   line.reset();
   if (!made) {
     report(made.failure().message);

@@ -57,9 +57,10 @@ public:
       s.missing = fmt::format("{} rows with a result are too few for statistics", values.size());
       return;
     }
+    const std::vector<double> ranks = ranks_of(values);
     for (std::size_t i = 0; i < inputs_.size(); ++i)
       s.correlations.push_back({rows_.input_columns[i].name, pearson_correlation(inputs_[i], values),
-                                spearman_correlation(inputs_[i], values)});
+                                spearman_of_ranks(ranks_[i], ranks)});
   }
 
 private:
@@ -78,6 +79,8 @@ private:
             inputs_[i].push_back(chunk[k * columns + i]);
       first += count;
     }
+    for (const auto& column : inputs_)
+      ranks_.push_back(ranks_of(column));
   }
 
   Summary randomised(std::uint32_t output, const SummaryRequest& request) const {
@@ -94,7 +97,7 @@ private:
   const StudyFile& study_;
   const SampledStudy& rows_;
   const RowTable& table_;
-  std::vector<std::vector<double>> inputs_;
+  std::vector<std::vector<double>> inputs_, ranks_;
 };
 
 void add_indices(const StudyFile& study, const SampledStudy& rows, const RowTable& table, OutputStatistics& s,

@@ -15,6 +15,9 @@ Estimate pearson_correlation(std::span<const double> x, std::span<const double> 
 /// (Psychometrika 65, 2000).
 Estimate spearman_correlation(std::span<const double> x, std::span<const double> y);
 
+/// The same from ranks that are known: they cost more than the correlation.
+Estimate spearman_of_ranks(std::span<const double> x_ranks, std::span<const double> y_ranks);
+
 /// Ranks 1 … n; equal values share the mean of theirs.
 std::vector<double> ranks_of(std::span<const double> values);
 
