@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace strainwave {
 
@@ -76,7 +77,7 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
   const Eigen::Index m = assembled.force_n.size();
   ExactLoad result;
   result.state = start;
-  ContactProblem problem = load.problem;
+  std::optional<ContactProblem> moved; // with the normals of a later state; seldom needed
   Eigen::MatrixX2d normal = assembled.normal;
   double opened = 0.0;
   for (int step = 0; step <= max_steps; ++step) {
@@ -95,7 +96,7 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
         normal.row(chosen.stations[k]) = settled.normal.row(static_cast<Eigen::Index>(k));
       }
       state.stiffness = settled.stiffness;
-      state.torque = problem.r.dot(state.force);
+      state.torque = load.problem.r.dot(state.force);
     }
     // All gaps from these forces; normals where the wall now stands.
     const Eigen::VectorXd wall = state.force.tail(m);
@@ -114,7 +115,7 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
       normal(i, 0) = g.radial;
       normal(i, 1) = g.circumferential;
     }
-    const double largest_mm = problem.m.diagonal().maxCoeff() * state.force.sum();
+    const double largest_mm = load.problem.m.diagonal().maxCoeff() * state.force.sum();
     const double rounding = std::max(1e-13, gap_rounding_mm(n + m, surface.inner_radius_mm(), largest_mm));
     const double penetration = -gap.minCoeff();
     // A force that rounding makes negative is none.
@@ -137,6 +138,9 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
     opened = std::max(penetration, 0.0);
     if (!gap.allFinite())
       break;
+    if (!moved)
+      moved = load.problem;
+    ContactProblem& problem = *moved;
     problem.m.bottomRightCorner(m, m) = ring.wall_wall(assembled.stations, normal);
     const Eigen::MatrixXd wall_tooth = ring.wall_tooth(assembled.stations, normal, load.points);
     problem.m.bottomLeftCorner(m, n) = -wall_tooth;

@@ -84,8 +84,17 @@ Eigen::MatrixXd frozen_compliance(const RingCompliance& ring, const AssembledSta
 }
 
 Eigen::MatrixX2d frozen_reaction(const RingCompliance& ring, const AssembledState& assembled,
-                                 std::span<const ToothFunctional> teeth, const Eigen::VectorXd& tooth_force) {
-  const HeldWall held = held_wall(ring, assembled, teeth);
+                                 std::span<const ToothFunctional> teeth, const Eigen::VectorXd& all_forces) {
+  std::vector<ToothFunctional> loaded; // few of the teeth carry
+  Eigen::VectorXd tooth_force(all_forces.size());
+  for (Eigen::Index i = 0; i < all_forces.size(); ++i) {
+    if (all_forces(i) == 0.0)
+      continue;
+    tooth_force(static_cast<Eigen::Index>(loaded.size())) = all_forces(i);
+    loaded.push_back(teeth[static_cast<std::size_t>(i)]);
+  }
+  tooth_force.conservativeResize(static_cast<Eigen::Index>(loaded.size()));
+  const HeldWall held = held_wall(ring, assembled, loaded);
   Eigen::VectorXd along = Eigen::VectorXd::Zero(assembled.force_n.size());
   if (held.compliance.size() > 0) {
     // Tooth forces act along minus their functionals, so the wall would move by −G_wt F; the reaction takes it back.

@@ -179,7 +179,7 @@ const PhaseSlopes::PointChange& PhaseSlopes::change(const LoadedPoint& point) co
   change.row(of_gap) = slopes.gap.transpose();
   change.row(of_radius) = slopes.radius.transpose();
   change.row(of_height) = height * slopes.height_slope.transpose();
-  if (in_.gear.contact.force_direction == ForceDirection::flank_normal)
+  if (in_.gear.contact.direction_of_force() == ForceDirection::flank_normal)
     change.row(of_angle) = slopes.pressure_angle.transpose();
   else
     change.row(of_angle).setZero();

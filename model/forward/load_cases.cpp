@@ -189,6 +189,8 @@ private:
       const auto load = solve(**model, asked);
       if (!load)
         return load.failure();
+      if (mirrored == 0 && asked.torque && asked.value == gear_.load.rated_torque_nm)
+        at_rated_ = *load;
       if (observer_)
         observer_({SolvedLoad::Use::load_case, result_.load.size(), direction,
                    static_cast<double>(mirrored) / gear_.load.phases,
@@ -289,7 +291,7 @@ private:
       return model.failure();
     if (auto failure = rest(**model, 0.0))
       return failure;
-    const auto at_rated = solve(**model, {true, rated});
+    const auto at_rated = at_rated_ ? Outcome<PhaseLoad>(*at_rated_) : solve(**model, {true, rated});
     if (!at_rated)
       return at_rated.failure();
     const auto at_small = solve(**model, {true, 0.04 * rated});
@@ -344,6 +346,7 @@ private:
   const PhaseSource& source_;
   ForwardResult& result_;
   const LoadObserver& observer_;
+  std::optional<PhaseLoad> at_rated_; ///< phase 0 at the rated torque, once a load case has been that
   ContactSolver solver_;
   FlankPressure pressure_;
   std::set<double> rested_; ///< drive-side phases whose rest is known

@@ -21,6 +21,7 @@
 #include "model/tooth/removal.hpp"
 
 #include <numbers>
+#include <type_traits>
 
 namespace strainwave {
 
@@ -107,8 +108,8 @@ FlankPoint<T> flank_point(const Flank<T>& flank, const Placement<T>& place, cons
   return p;
 }
 
-/// Newton steps for unknown x in numbers T: until the value stands, then once more, so that derivatives stand
-/// as well.
+/// Newton steps for unknown x in numbers T: until a change of 1e-9 says that the next one would be rounding, then once more
+/// where there are derivatives, which follow one step behind.
 template <class T, class Correction>
 T newton(T x, const Correction& correction) {
   bool last = false;
@@ -118,6 +119,8 @@ T newton(T x, const Correction& correction) {
     if (last)
       break;
     last = std::abs(value_of(change)) < 1e-9 * (1.0 + std::abs(value_of(x)));
+    if (std::is_same_v<T, double> && last)
+      break;
   }
   return x;
 }

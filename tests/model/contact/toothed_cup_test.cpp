@@ -90,6 +90,63 @@ INSTANTIATE_TEST_SUITE_P(Heights, ToothedCupOnTheDiscs,
                          ::testing::Values(Height{14.37, {89.7, 87.2, 85.9, 85.1}},
                                            Height{14.584, {93.6, 87.7, 85.2, 84.1}}));
 
+// Gap, direction and equilibrium of a wall that carries, recomputed from the forces alone.
+void expect_exact(const RingCompliance& ring, const WaveGeneratorSurface& discs,
+                  const std::vector<WallStation>& stations, const Eigen::MatrixX2d& wall_force,
+                  const std::vector<ToothFunctional>& teeth, const Eigen::VectorXd& tooth_force) {
+  const Eigen::MatrixX2d u = ring.wall_displacement(stations, stations, wall_force, teeth, -tooth_force);
+  const double rounding_mm =
+      gap_rounding_mm(u.rows() + tooth_force.size(), discs.inner_radius_mm(), u.cwiseAbs().maxCoeff());
+  int closed = 0;
+  for (Eigen::Index i = 0; i < u.rows(); ++i) {
+    const WallStation& s = stations[static_cast<std::size_t>(i)];
+    const WallGap gap = discs.gap(s.phi_rad, s.z_mm, u(i, 0), u(i, 1));
+    const double along = wall_force(i, 0) * gap.radial + wall_force(i, 1) * gap.circumferential,
+                 across = wall_force(i, 1) * gap.radial - wall_force(i, 0) * gap.circumferential;
+    EXPECT_GE(along, 0.0);
+    EXPECT_NEAR(across, 0.0, 1e-12 * along);
+    EXPECT_GE(gap.gap_mm, -rounding_mm);
+    if (along > 0.0) {
+      ++closed;
+      EXPECT_LE(gap.gap_mm, rounding_mm);
+    }
+  }
+  EXPECT_GT(closed, 20);
+}
+
+TEST(ExactWallContact, ForcesActAlongTheNormalsOfTheDiscsWhereTheWallStands) {
+  const RingCompliance ring(seed_responses(), {22.5, 24.5, 26.5}, true);
+  const WaveGeneratorSurface discs = seed_discs(false);
+  ContactSolver solver;
+  const AssembledState assembled = assemble(ring, discs, 0.0, solver).value();
+  expect_exact(ring, discs, assembled.stations, assembled.force_components(), {}, Eigen::VectorXd());
+  std::vector<LoadedPoint> points;
+  for (int tooth = -3; tooth <= 6; ++tooth)
+    points.push_back(
+        {.tooth = tooth, .backlash_mm = 4e-3, .contact_radius_mm = 14.6, .flank_radius_mm = 14.5});
+  const LoadProblem load = unilateral_problem(ring, assembled, points);
+  for (const double torque_nmm : {500.0, 3500.0}) {
+    const ContactState start = solver.solve_torque(load.problem, torque_nmm).value();
+    const ExactLoad exact =
+        correct_to_exact_gap(ring, discs, assembled, load, start, Control::torque, solver).value();
+    const Eigen::VectorXd force = exact.state.force.head(load.point_count);
+    EXPECT_NEAR(load.problem.r.head(load.point_count).dot(force), torque_nmm, 1e-12 * torque_nmm);
+    expect_exact(ring, discs, assembled.stations, exact.wall_force, load.points, force);
+    // teeth: c + d − d(assembly) − R θ
+    const double rounding_mm = gap_rounding_mm(exact.state.force.size(), discs.inner_radius_mm(), 1.0);
+    const Eigen::VectorXd gap = ring.tooth_displacement(load.points, load.points, force) -
+                                ring.tooth_displacement(load.points, assembled.stations,
+                                                        exact.wall_force - assembled.force_components());
+    for (Eigen::Index k = 0; k < force.size(); ++k) {
+      const double left = gap(k) + 4e-3 - 14.6 * exact.state.rotation;
+      EXPECT_GE(left, -rounding_mm);
+      if (force(k) > 0.0) {
+        EXPECT_LE(left, rounding_mm);
+      }
+    }
+  }
+}
+
 // Section "what the source text reports": every tooth loaded at its tip, backlash and lever arms of the exact discs.
 struct Column {
   bool unilateral, linearised_gap;
