@@ -61,6 +61,14 @@ double of_stiffness(std::span<const ForwardResult> results) {
   return stiffness ? (*stiffness).*Member : none;
 }
 
+/// Of the gaps in use.
+double least_backlash(std::span<const ForwardResult> results) {
+  const auto& backlash = results.front().backlash;
+  if (!backlash)
+    return none;
+  return backlash->assembled ? backlash->assembled->min_um : backlash->min_um;
+}
+
 const std::array rows{
     Row{{"peak_force_n", "N", "largest meshing force of a tooth"},
         of_load<&LoadResult::peak_force_n, largest>},
@@ -79,13 +87,13 @@ const std::array rows{
         [](std::span<const ForwardResult> r) { return worst(r, largest, largest_rotation); }},
     Row{{"torque_nm", "N·m", "torque on the circular spline"}, of_load<&LoadResult::torque_nm, least>},
     Row{{"min_backlash_um", "µm",
-         "least initial backlash over continuous φ, both flanks alike; negative: interference"},
-        [](std::span<const ForwardResult> r) {
-          return r.front().backlash ? r.front().backlash->min_um : none;
-        }},
+         "least initial backlash over continuous φ (assembled gaps: and over the face); negative: "
+         "interference"},
+        least_backlash},
     Row{{"interference_um", "µm", "overlap of the flanks before any load; 0 where there is none"},
         [](std::span<const ForwardResult> r) {
-          return r.front().backlash ? std::max(0.0, -r.front().backlash->min_um) : none;
+          const double b = least_backlash(r);
+          return std::isnan(b) ? none : std::max(0.0, -b);
         }},
     Row{{"secant_nm_per_rad", "N·m/rad", "torsional stiffness: rated torque over wind-up"},
         of_stiffness<&StiffnessResult::secant_nm_per_rad>},

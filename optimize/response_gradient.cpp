@@ -127,10 +127,19 @@ std::map<std::string_view, Slopes> slopes_by_name(std::span<const ForwardResult>
     slopes["disc_force_n"] = worst.of(
         true, [](const LoadResult& l) { return l.disc_force_n; },
         at_peak(&ForwardGradient::Phase::disc_force_n));
+  slopes["peak_pressure_mpa"] = worst.of(
+      true, [](const LoadResult& l) { return l.peak_pressure.mpa; },
+      [](const LoadedCase& c) -> Slopes {
+        const auto at = std::max_element(c.phases.begin(), c.phases.end(), [](const auto& a, const auto& b) {
+          return a.largest_pressure_mpa < b.largest_pressure_mpa;
+        });
+        return at->peak_pressure_mpa.transpose();
+      });
   slopes["min_backlash_um"] = gradient.min_backlash_um.transpose();
-  slopes["interference_um"] = first.backlash && first.backlash->min_um < 0.0
-                                  ? Slopes(-gradient.min_backlash_um.transpose())
-                                  : Slopes(Slopes::Zero(gradient.min_backlash_um.size()));
+  const bool interferes = first.backlash && (first.backlash->assembled ? first.backlash->assembled->min_um
+                                                                       : first.backlash->min_um) < 0.0;
+  slopes["interference_um"] = interferes ? Slopes(-gradient.min_backlash_um.transpose())
+                                         : Slopes(Slopes::Zero(gradient.min_backlash_um.size()));
   slopes["assembly_force_n"] = gradient.assembly_force_n.transpose();
   if (first.stiffness) {
     const StiffnessResult& s = *first.stiffness;

@@ -3,8 +3,10 @@
 #include "model/forward/analysis.hpp"
 #include "model/forward/gradient_phase.hpp"
 #include "model/forward/inputs.hpp"
+#include "model/forward/pressure.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace strainwave {
@@ -50,6 +52,20 @@ Eigen::VectorXd least_backlash_slopes(const Gear& gear, const NeutralCurve& curv
           .at(kinematic_slopes(curve, parameters, phi_rad), space,
               {.height = {}, .place = contact.place, .kink = contact.kink, .roll = contact.roll});
   return 1e3 * slopes.gap;
+}
+
+/// Slopes of the largest contact pressure, and it.
+std::pair<Eigen::VectorXd, double> peak_pressure(const Gear& gear, const PhaseSlopes& slopes,
+                                                 const std::vector<LoadedPoint>& points,
+                                                 const PhaseLoad& load, const Eigen::MatrixXd& force) {
+  const std::vector<LineContact> contacts = FlankPressure(gear).of(points, load.force_n);
+  const auto peak = std::max_element(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) {
+    return a.pressure_mpa < b.pressure_mpa;
+  });
+  if (peak == contacts.end() || !(peak->pressure_mpa > 0.0))
+    return {Eigen::VectorXd::Constant(force.cols(), std::numeric_limits<double>::quiet_NaN()), 0.0};
+  return {slopes.pressure(points, load, force, static_cast<std::size_t>(peak - contacts.begin())),
+          peak->pressure_mpa};
 }
 
 /// The discs follow the parameters so that the radial displacement in the reference section stays u0. radial: its slopes by
@@ -107,8 +123,13 @@ ForwardGradient Analysis::gradient(std::span<const std::string> parameters) {
     return *slopes;
   };
   g.assembly_force_n = at_phase(0.0).assembly_force();
-  g.min_backlash_um = least_backlash_slopes(gear_, **curve_, g.parameters,
-                                            result_.backlash->min_phi_deg * std::numbers::pi / 180.0);
+  constexpr double degree = std::numbers::pi / 180.0;
+  if (const auto& assembled = result_.backlash->assembled)
+    g.min_backlash_um =
+        1e3 * at_phase(0.0).assembled_backlash(assembled->min_phi_deg * degree, assembled->min_z_mm);
+  else
+    g.min_backlash_um =
+        least_backlash_slopes(gear_, **curve_, g.parameters, result_.backlash->min_phi_deg * degree);
   g.load.resize(result_.load.size());
   std::vector<PhaseLoadSlopes> known; // by solved load
   for (const SolvedLoad& solved : solved_) {
@@ -134,12 +155,16 @@ ForwardGradient Analysis::gradient(std::span<const std::string> parameters) {
     case SolvedLoad::Use::small:
       g.small_rotation_rad = of.rotation_rad;
       break;
-    case SolvedLoad::Use::load_case:
+    case SolvedLoad::Use::load_case: {
+      const auto [pressure, largest] = peak_pressure(gear_, slopes, points, solved.load, of.force_n);
       g.load[solved.load_case].push_back({.force_n = by_tooth(points, of.force_n, solved.direction),
                                           .rotation_rad = of.rotation_rad,
                                           .torque_nm = of.torque_nm,
                                           .tangent_nm_per_rad = of.tangent_nm_per_rad,
-                                          .disc_force_n = of.disc_force_n});
+                                          .disc_force_n = of.disc_force_n,
+                                          .peak_pressure_mpa = pressure,
+                                          .largest_pressure_mpa = largest});
+    }
     }
   }
   return g;

@@ -27,6 +27,8 @@ struct ForwardGradient {
   struct Phase {
     Eigen::MatrixXd force_n;
     Eigen::VectorXd rotation_rad, torque_nm, tangent_nm_per_rad, disc_force_n;
+    Eigen::VectorXd peak_pressure_mpa; ///< of this phase; not a number where nothing carries
+    double largest_pressure_mpa = 0.0; ///< the pressure itself
   };
   std::vector<std::vector<Phase>> load; ///< [load of the result][phase]
 

@@ -106,34 +106,33 @@ PoseSlopes kinematic_slopes(const NeutralCurve& curve, const std::vector<std::st
   return result;
 }
 
-PoseSlopes PhaseSlopes::pose(const LoadedPoint& point) const {
-  const double own =
-      point.phi_rad > 0.5 * std::numbers::pi + 1e-9 ? point.phi_rad - std::numbers::pi : point.phi_rad;
-  if (in_.gear.contact.gaps == GapModel::kinematic)
-    return kinematic_slopes(in_.curve, in_.parameters, own);
-  PoseSlopes result{{}, Eigen::Matrix3Xd::Zero(3, count_)};
-  // Columns: the assembled displacement, then its changes; lines u, v, rotation, tilt.
-  const auto [found, fresh] = sections_.try_emplace({point.tooth, point.z_mm});
+const Eigen::MatrixXd& PhaseSlopes::section(int tooth, double z_mm) const {
+  const auto [found, fresh] = sections_.try_emplace({tooth, z_mm});
   Eigen::MatrixXd& section = found->second;
-  if (fresh) {
-    const std::size_t moving = in_.surface_slopes.parameter().size();
-    section.resize(4, static_cast<Eigen::Index>(moving) + 1);
-    section.col(0) = in_.ring
-                         .section({&point.tooth, 1}, point.z_mm, assembled_->stations,
-                                  assembled_->force_components(), {}, Eigen::VectorXd())
-                         .row(0)
-                         .transpose();
-    for (Eigen::Index c = 0; c < static_cast<Eigen::Index>(moving); ++c)
-      section.col(c + 1) =
-          in_.ring.section({&point.tooth, 1}, point.z_mm, closed_, assembled_change(c), {}, Eigen::VectorXd())
-              .row(0)
-              .transpose();
-  }
+  if (!fresh)
+    return section;
+  const auto moving = static_cast<Eigen::Index>(in_.surface_slopes.parameter().size());
+  section.resize(4, moving + 1);
+  section.col(0) = in_.ring
+                       .section({&tooth, 1}, z_mm, assembled_->stations, assembled_->force_components(), {},
+                                Eigen::VectorXd())
+                       .row(0)
+                       .transpose();
+  for (Eigen::Index c = 0; c < moving; ++c)
+    section.col(c + 1) =
+        in_.ring.section({&tooth, 1}, z_mm, closed_, assembled_change(c), {}, Eigen::VectorXd())
+            .row(0)
+            .transpose();
+  return section;
+}
+
+PoseSlopes PhaseSlopes::standing(double phi_rad, const Eigen::MatrixXd& section) const {
+  PoseSlopes result{{}, Eigen::Matrix3Xd::Zero(3, count_)};
   const double across = in_.gear.flexspline.neutral_radius_mm + section(UnitResponses::section_radial, 0);
   const double v = section(UnitResponses::section_circumferential, 0);
   const double rho = std::hypot(across, v), turn = std::atan2(v, across);
   result.value = {.rho_mm = rho,
-                  .phi1_rad = own + turn,
+                  .phi1_rad = phi_rad + turn,
                   .normal_rotation_rad = section(UnitResponses::section_rotation, 0) - turn};
   for (Eigen::Index c = 1; c < section.cols(); ++c) {
     const double du = section(UnitResponses::section_radial, c),
@@ -143,6 +142,35 @@ PoseSlopes PhaseSlopes::pose(const LoadedPoint& point) const {
         (across * du + v * dv) / rho, dturn, section(UnitResponses::section_rotation, c) - dturn);
   }
   return result;
+}
+
+PoseSlopes PhaseSlopes::pose(const LoadedPoint& point) const {
+  const double own =
+      point.phi_rad > 0.5 * std::numbers::pi + 1e-9 ? point.phi_rad - std::numbers::pi : point.phi_rad;
+  if (in_.gear.contact.gaps == GapModel::kinematic)
+    return kinematic_slopes(in_.curve, in_.parameters, own);
+  return standing(own, section(point.tooth, point.z_mm));
+}
+
+Eigen::VectorXd PhaseSlopes::assembled_backlash(double phi_rad, double z_mm) const {
+  // Between the four nearest tooth centres, as AssembledPoses has it.
+  const double pitch = 2.0 * std::numbers::pi / in_.ring.sectors();
+  const int first = static_cast<int>(std::floor(phi_rad / pitch)) - 3;
+  std::vector<double> angle;
+  for (int k = 0; k < 8; ++k)
+    angle.push_back(pitch * (first + k));
+  Eigen::MatrixXd between;
+  for (const auto& [k, weight] : lagrange_weights(angle, phi_rad)) {
+    const Eigen::MatrixXd part = weight * section(first + k, z_mm);
+    between = between.size() == 0 ? part : Eigen::MatrixXd(between + part);
+  }
+  const PoseSlopes at = standing(phi_rad, between);
+  const double space = phi_rad * in_.gear.flexspline.teeth / in_.gear.circular_spline.teeth;
+  const double zeta = face_coordinate(in_.gear.flexspline, z_mm);
+  const ToothBacklash contact = FlankPair::make(in_.gear, zeta)->drive(at.value, space);
+  return FlankSlopes(in_.gear, in_.parameters, zeta)
+      .at(at, space, {.height = {}, .place = contact.place, .kink = contact.kink, .roll = contact.roll})
+      .gap;
 }
 
 const PhaseSlopes::PointChange& PhaseSlopes::change(const LoadedPoint& point) const {

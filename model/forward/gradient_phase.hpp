@@ -51,6 +51,12 @@ public:
   PhaseLoadSlopes of(const std::vector<LoadedPoint>& points, const PhaseLoad& load, Control control) const;
   /// Of the least c/R, rad.
   Eigen::VectorXd least_take_up(const std::vector<LoadedPoint>& points) const;
+  /// Of the backlash of the assembled cup at any material angle of the first lobe and place along the axis, mm: a least one,
+  /// where the angle itself does not matter.
+  Eigen::VectorXd assembled_backlash(double phi_rad, double z_mm) const;
+  /// Of the contact pressure (pressure.hpp) of a point that carries, MPa; `force` holds the slopes of all forces.
+  Eigen::VectorXd pressure(const std::vector<LoadedPoint>& points, const PhaseLoad& load,
+                           const Eigen::MatrixXd& force, std::size_t point) const;
   /// Of the assembled resultant on one disc, N.
   Eigen::VectorXd assembly_force() const;
   /// Of the radial displacement under sector 0 at z, mm, by column of the surface (the shift last).
@@ -62,6 +68,9 @@ private:
   struct Closed;
 
   PoseSlopes pose(const LoadedPoint& point) const;
+  /// Lines u, v, rotation, tilt of the neutral surface under a tooth; columns: assembled, then by column of the surface.
+  const Eigen::MatrixXd& section(int tooth, double z_mm) const;
+  PoseSlopes standing(double phi_rad, const Eigen::MatrixXd& section) const;
   const PointChange& change(const LoadedPoint& point) const;
   void solve_assembly();
   /// Assembled forces of a column, one line for each station of `closed_`.
