@@ -66,11 +66,8 @@ bool settle_closed(const RingCompliance& ring, const WaveGeneratorSurface& surfa
   const SettledContact settled = settle(ring, surface, closed, Control::rotation, 0.0);
   if (!settled.converged)
     return false;
-  const double largest = settled.wall_force.size() > 0 ? settled.wall_force.maxCoeff() : 0.0;
   for (std::size_t k = 0; k < index.size(); ++k) {
-    const double force = settled.wall_force(static_cast<Eigen::Index>(k));
-    state.force_n(index[k]) =
-        std::abs(force) <= 1e-13 * largest ? 0.0 : force; // what rounding leaves is none
+    state.force_n(index[k]) = settled.wall_force(static_cast<Eigen::Index>(k));
     state.normal.row(index[k]) = settled.normal.row(static_cast<Eigen::Index>(k));
   }
   return true;
@@ -133,13 +130,20 @@ Outcome<AssembledState> assemble(const RingCompliance& ring, const WaveGenerator
       break;
     const double rounding =
         gap_rounding_mm(n, surface.inner_radius_mm(), problem.m.diagonal().maxCoeff() * state.force_n.sum());
-    converged = settled && state.force_n.minCoeff() >= 0.0 &&
-                state.newton_change_mm <= std::max(options.tolerance_mm, rounding);
+    // A pull that moves its station by less than rounding is none.
+    const double pull_mm = -(state.force_n.array() * problem.m.diagonal().array()).minCoeff();
+    converged =
+        settled && pull_mm <= rounding && state.newton_change_mm <= std::max(options.tolerance_mm, rounding);
   }
   if (!converged) {
     return Failure{Status::not_converged, describe_divergence("assembly on the wave generator",
                                                               state.newton_change_mm, state.newton_steps)};
   }
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (state.force_n(i) <= 0.0) {
+      state.force_n(i) = 0.0;
+      state.active[static_cast<std::size_t>(i)] = 0;
+    }
   // The normals have just been measured again; the matrix handed on belongs to them.
   state.compliance = ring.wall_wall(state.stations, state.normal);
   summarise(state);

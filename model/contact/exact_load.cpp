@@ -118,10 +118,15 @@ Outcome<ExactLoad> correct_to_exact_gap(const RingCompliance& ring, const WaveGe
     const double largest_mm = load.problem.m.diagonal().maxCoeff() * state.force.sum();
     const double rounding = std::max(1e-13, gap_rounding_mm(n + m, surface.inner_radius_mm(), largest_mm));
     const double penetration = -gap.minCoeff();
-    // A force that rounding makes negative is none.
-    const bool pushes = state.force.minCoeff() >= -1e-13 * state.force.maxCoeff();
+    // A pull that moves its point by less than rounding is none.
+    const double pull_mm = -(state.force.array() * load.problem.m.diagonal().array()).minCoeff();
+    const bool pushes = pull_mm <= rounding;
     if (settled.converged && pushes && penetration <= rounding) {
-      state.force = state.force.cwiseMax(0.0);
+      for (Eigen::Index i = 0; i < n + m; ++i)
+        if (state.force(i) <= 0.0) {
+          state.force(i) = 0.0;
+          state.active[static_cast<std::size_t>(i)] = 0;
+        }
       result.residual_mm = settled.residual_mm;
       result.wall_force = wall_force;
       result.state = state;

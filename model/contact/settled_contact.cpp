@@ -88,7 +88,11 @@ SettledContact settle(const RingCompliance& ring, const WaveGeneratorSurface& su
     const double turned = w > 0 ? (normal - s.normal).cwiseAbs().maxCoeff() : 0.0;
     const double change = std::max(s.residual_mm, turned);
     s.displacement << u.head(w), u.tail(w);
-    if (change < tolerance || (change < 1e-11 && change > 0.5 * before)) {
+    const double largest_mm =
+        (w > 0 ? g.wall_wall.diagonal().maxCoeff() : 0.0) * s.wall_force.cwiseAbs().sum() +
+        (t > 0 ? g.tooth_tooth.diagonal().maxCoeff() : 0.0) * s.tooth_force.cwiseAbs().sum();
+    const double rounding = std::max(1e-11, gap_rounding_mm(t + w, surface.inner_radius_mm(), largest_mm));
+    if (change < tolerance || (change < rounding && change > 0.5 * before)) {
       s.converged = true;
       break;
     }

@@ -141,10 +141,14 @@ ForwardGradient Analysis::gradient(std::span<const std::string> parameters) {
                      [&](const SolvedLoad& other) {
                        return other.model == solved.model && other.control == solved.control &&
                               other.load.rotation_rad == solved.load.rotation_rad &&
-                              other.load.force_n == solved.load.force_n;
+                              other.load.force_n == solved.load.force_n &&
+                              other.load.coast_force_n == solved.load.coast_force_n;
                      });
     const auto at = static_cast<std::size_t>(same - solved_.begin());
-    known.push_back(at < known.size() ? known[at] : slopes.of(points, solved.load, solved.control));
+    known.push_back(at < known.size()
+                        ? known[at]
+                        : slopes.of(solved.model->all_points(), PhaseModel::all_forces(solved.load),
+                                    solved.load, solved.control));
     const PhaseLoadSlopes& of = known.back();
     switch (solved.use) {
     case SolvedLoad::Use::rated:

@@ -174,7 +174,8 @@ Eigen::VectorXd PhaseSlopes::assembled_backlash(double phi_rad, double z_mm) con
 }
 
 const PhaseSlopes::PointChange& PhaseSlopes::change(const LoadedPoint& point) const {
-  const auto [found, fresh] = changes_.try_emplace({point.tooth, point.z_mm, point.flank_radius_mm});
+  const auto [found, fresh] =
+      changes_.try_emplace({point.tooth, point.z_mm, point.flank_radius_mm, point.coast});
   if (!fresh)
     return found->second;
   const Flexspline& fs = in_.gear.flexspline;
@@ -185,8 +186,10 @@ const PhaseSlopes::PointChange& PhaseSlopes::change(const LoadedPoint& point) co
       point.phi_rad > 0.5 * std::numbers::pi + 1e-9 ? point.phi_rad - std::numbers::pi : point.phi_rad;
   const double space = own * fs.teeth / in_.gear.circular_spline.teeth;
   ContactSpot spot;
+  spot.coast = point.coast;
   if (in_.gear.contact.flank_points == 1) {
-    const ToothBacklash contact = in_.flanks[slice].drive(at.value, space);
+    const ToothBacklash contact =
+        point.coast ? in_.flanks[slice].coast(at.value, space) : in_.flanks[slice].drive(at.value, space);
     spot.place = contact.place;
     spot.kink = contact.kink;
     spot.roll = contact.roll;

@@ -48,8 +48,10 @@ public:
   PhaseSlopes(const SlopeInputs& inputs, std::shared_ptr<const AssembledState> assembled);
 
   /// Derivatives at given torque or rotation. A state without a closed tooth has those of its take-up.
-  PhaseLoadSlopes of(const std::vector<LoadedPoint>& points, const PhaseLoad& load, Control control) const;
-  /// Of the least c/R, rad.
+  /// points: drive and coast ones, with their forces; load: the rest of the state.
+  PhaseLoadSlopes of(const std::vector<LoadedPoint>& points, const std::vector<double>& force_n,
+                     const PhaseLoad& load, Control control) const;
+  /// Of the least c/R of drive points, rad.
   Eigen::VectorXd least_take_up(const std::vector<LoadedPoint>& points) const;
   /// Of the backlash of the assembled cup at any material angle of the first lobe and place along the axis, mm: a least one,
   /// where the angle itself does not matter.
@@ -83,7 +85,7 @@ private:
   Eigen::MatrixX2d normal_;               ///< of the closed stations
   Eigen::MatrixXd along_, across_, turn_; ///< closed stations × columns of the surface: dλ, f [N], ν [rad]
   mutable std::map<std::pair<int, double>, Eigen::MatrixXd> sections_;
-  mutable std::map<std::tuple<int, double, double>, PointChange> changes_;
+  mutable std::map<std::tuple<int, double, double, bool>, PointChange> changes_;
 };
 
 } // namespace strainwave

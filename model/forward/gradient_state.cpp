@@ -25,7 +25,7 @@ void append(ToothFunctional& to, const ToothFunctional& from, double factor) {
 
 /// d functional / d flank radius: functionals are linear between two heights and constant beyond the ends.
 ToothFunctional by_height(const RingCompliance& ring, const LoadedPoint& point, double circumferential,
-                          double inwards) {
+                          double inwards, FlankSide side) {
   const std::vector<double>& heights = ring.responses().flank_radius_mm;
   ToothFunctional result{point.tooth, {}};
   if (heights.size() < 2 || point.flank_radius_mm < heights.front() || point.flank_radius_mm > heights.back())
@@ -34,8 +34,8 @@ ToothFunctional by_height(const RingCompliance& ring, const LoadedPoint& point, 
   upper = std::clamp<std::ptrdiff_t>(upper, 1, static_cast<std::ptrdiff_t>(heights.size()) - 1);
   const double lo = heights[static_cast<std::size_t>(upper) - 1],
                hi = heights[static_cast<std::size_t>(upper)];
-  append(result, ring.tooth(point.tooth, hi, circumferential, inwards, point.slice), 1.0 / (hi - lo));
-  append(result, ring.tooth(point.tooth, lo, circumferential, inwards, point.slice), -1.0 / (hi - lo));
+  append(result, ring.tooth(point.tooth, hi, circumferential, inwards, point.slice, side), 1.0 / (hi - lo));
+  append(result, ring.tooth(point.tooth, lo, circumferential, inwards, point.slice, side), -1.0 / (hi - lo));
   return result;
 }
 
@@ -52,8 +52,8 @@ struct PhaseSlopes::Closed {
   Eigen::VectorXd wall_force; ///< λ along the normals
 };
 
-PhaseLoadSlopes PhaseSlopes::of(const std::vector<LoadedPoint>& points, const PhaseLoad& load,
-                                Control control) const {
+PhaseLoadSlopes PhaseSlopes::of(const std::vector<LoadedPoint>& points, const std::vector<double>& force_n,
+                                const PhaseLoad& load, Control control) const {
   const RingCompliance& ring = in_.ring;
   const bool linear = in_.gear.contact.fidelity == Fidelity::linear;
   PhaseLoadSlopes result;
@@ -64,7 +64,7 @@ PhaseLoadSlopes PhaseSlopes::of(const std::vector<LoadedPoint>& points, const Ph
 
   Closed at;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!(load.force_n[i] > 0.0))
+    if (!(force_n[i] > 0.0))
       continue;
     at.index.push_back(static_cast<Eigen::Index>(i));
     at.points.push_back(points[i]);
@@ -74,13 +74,14 @@ PhaseLoadSlopes PhaseSlopes::of(const std::vector<LoadedPoint>& points, const Ph
   at.r.resize(teeth);
   for (Eigen::MatrixXd& change : at.change)
     change.resize(teeth, count_);
-  Eigen::VectorXd cosine(teeth), sine(teeth);
+  Eigen::VectorXd cosine(teeth), sine(teeth), side(teeth);
   for (Eigen::Index k = 0; k < teeth; ++k) {
     const LoadedPoint& point = at.points[static_cast<std::size_t>(k)];
-    at.force(k) = load.force_n[static_cast<std::size_t>(at.index[static_cast<std::size_t>(k)])];
+    at.force(k) = force_n[static_cast<std::size_t>(at.index[static_cast<std::size_t>(k)])];
     cosine(k) = std::cos(point.pressure_angle_rad);
+    side(k) = point.coast ? -1.0 : 1.0; // of the lever arm and of the circumferential direction
     sine(k) = std::sin(point.pressure_angle_rad);
-    at.r(k) = point.contact_radius_mm * cosine(k);
+    at.r(k) = side(k) * point.contact_radius_mm * cosine(k);
     const PointChange& by = change(point);
     for (int line = 0; line < 4; ++line)
       at.change[line].row(k) = by.row(line);
@@ -117,13 +118,14 @@ PhaseLoadSlopes PhaseSlopes::of(const std::vector<LoadedPoint>& points, const Ph
   std::vector<Moving> moving;
   for (Eigen::Index k = 0; k < teeth; ++k) {
     const LoadedPoint& point = at.points[static_cast<std::size_t>(k)];
+    const FlankSide flank = point.coast ? FlankSide::coast : FlankSide::drive;
     if (!at.change[of_height].row(k).isZero(0.0)) {
-      functionals.push_back(by_height(ring, point, cosine(k), -sine(k)));
+      functionals.push_back(by_height(ring, point, side(k) * cosine(k), -sine(k), flank));
       moving.push_back({k, of_height});
     }
     if (!at.change[of_angle].row(k).isZero(0.0)) {
       functionals.push_back(
-          ring.tooth(point.tooth, point.flank_radius_mm, -sine(k), -cosine(k), point.slice));
+          ring.tooth(point.tooth, point.flank_radius_mm, -side(k) * sine(k), -cosine(k), point.slice, flank));
       moving.push_back({k, of_angle});
     }
   }
@@ -172,7 +174,8 @@ PhaseLoadSlopes PhaseSlopes::of(const std::vector<LoadedPoint>& points, const Ph
   for (Eigen::Index k = 0; k < teeth; ++k) {
     const LoadedPoint& point = at.points[static_cast<std::size_t>(k)];
     const auto turn = at.change[of_angle].row(k);
-    dr.row(k) = cosine(k) * at.change[of_radius].row(k) - sine(k) * point.contact_radius_mm * turn;
+    dr.row(k) =
+        side(k) * (cosine(k) * at.change[of_radius].row(k) - sine(k) * point.contact_radius_mm * turn);
     change.tooth_gap.row(k) = cosine(k) * at.change[of_gap].row(k) - sine(k) * point.backlash_mm * turn -
                               load.rotation_rad * dr.row(k);
   }

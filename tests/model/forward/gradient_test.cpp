@@ -194,6 +194,21 @@ TEST(Gradient, OfTheConedAssembledCupConvergesWithOrderTwo) {
   }
 }
 
+TEST(Gradient, OfAWedgedGearWithForcesOnBothFlanksConvergesWithOrderTwo) {
+  Gear gear = smooth_gear();
+  gear.contact.gaps = GapModel::assembled;
+  gear.contact.force_direction = ForceDirection::flank_normal;
+  gear.contact.flank_points = 5;
+  gear.contact.face_slices = 3;
+  gear.flank_modification.flexspline.lead_taper_um = 2.0;
+  gear.circular_spline.profile_shift = 2.1; // interferes at the front of the face
+  gear.load.torque_nm = {0.5};
+  const ForwardResult wedged = ForwardModel().analyze(gear);
+  ASSERT_EQ(wedged.status, Status::ok) << wedged.message;
+  ASSERT_GT(wedged.load.front().coast.peak_force_n, 0.1);
+  expect_order(gear, {fs + "lead_taper_um", fs + "crowning_um", "circular_spline.profile_shift", u0});
+}
+
 TEST(Gradient, FollowsTheShiftOfTheDiscsToTheReferenceSection) {
   Gear gear = smooth_gear();
   gear.contact.gaps = GapModel::assembled;
