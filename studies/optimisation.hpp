@@ -84,8 +84,8 @@ struct OptimisationReport {
   std::vector<ModelVariant> variants; ///< optimize; the study's own model first
   std::vector<FrontPoint> front;      ///< pareto; `best` is its first design then
   Certificate certificate_worst;
-  std::string damage; ///< tail of the journal that was cut; empty: none
-  std::string too_many_failed; ///< one sentence where more evaluations failed than the study allows
+  std::string damage;              ///< tail of the journal that was cut; empty: none
+  std::string too_many_failed;     ///< one sentence where more evaluations failed than the study allows
   std::vector<StoredPoint> points; ///< all evaluations, ascending in x, so that no number of threads shows
 };
 

@@ -122,7 +122,8 @@ StudyFile read_plan(const fs::path& folder, const StudyVocabulary& vocabulary) {
   study.file = plan["name"].get<std::string>() + ".toml";
   study.reduced = plan.value("reduced", false);
   if (hash_text(plan_hash(study)) != plan["hash"])
-    throw refuse("its hash does not fit its content: it has been changed by hand, or made by another build of this version");
+    throw refuse("its hash does not fit its content: it has been changed by hand, or made by another build "
+                 "of this version");
   return study;
 }
 

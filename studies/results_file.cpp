@@ -72,7 +72,7 @@ bool write_search_results(const ResultFolder& folder, const OptimisationReport& 
 }
 
 std::uint64_t search_model_hash() {
-  return content_hash(std::string(study_version()) + " search 1");
+  return content_hash(std::string(study_version()) + " search 2");
 }
 
 } // namespace strainwave

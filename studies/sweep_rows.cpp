@@ -216,7 +216,7 @@ Outcome<SampledStudy> make_sweep_rows(const StudyFile& study, const RowOptions& 
   sampled.block_rows = 8; // some 10 ms each on a cup that is known
   sampled.slice_rows = 1;
   sampled.status_names = row_status_names();
-  sampled.model_content = "sweep 1";
+  sampled.model_content = "sweep 2";
   const SweepModel* known = model.get();
   sampled.gear_of_row = [grid, known](std::uint64_t row) -> std::optional<Gear> {
     std::vector<double> values(grid->columns());

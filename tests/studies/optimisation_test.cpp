@@ -1,9 +1,9 @@
 // A study of kind "optimize" from the file to the judged optimum.
 
 #include "model/gear_file/gear_file.hpp"
+#include "studies/journal/content_hash.hpp"
 #include "studies/optimisation.hpp"
 #include "studies/optimisation_text.hpp"
-#include "studies/journal/content_hash.hpp"
 #include "studies/results_file.hpp"
 #include "tests/studies/studies.hpp"
 

@@ -66,7 +66,8 @@ TEST_F(StudyCommand, TimeLimitStopsWith75) {
 }
 
 TEST_F(StudyCommand, FolderOfAnotherStudyIsRefusedAndFinishedResultsAreAnsweredFromIt) {
-  const std::string first = "PROGRAM study run " + gallery + "seed_relief_only.toml --reduced --out kept --json";
+  const std::string first =
+      "PROGRAM study run " + gallery + "seed_relief_only.toml --reduced --out kept --json";
   const End whole = shell(first);
   ASSERT_EQ(whole.code, 0);
   const std::string best = file_text((folder / "kept/best.toml").string());

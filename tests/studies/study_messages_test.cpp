@@ -88,7 +88,8 @@ const std::vector<Golden>& goldens() {
       {"link without ratio", ", ratio = 3.0", "",
        "study.toml:24:8: variable[1].link.ratio: missing; expected a number: that number over the variable"},
       {"constraint that limits nothing", "max_ratio_to_baseline = 1.05\n", "",
-       "study.toml:31:1: constraint[0]: limits nothing; give min, max, min_ratio_to_baseline or max_ratio_to_baseline"},
+       "study.toml:31:1: constraint[0]: limits nothing; give min, max, min_ratio_to_baseline or "
+       "max_ratio_to_baseline"},
       {"constraint the wrong way round", "min = 3000", "min = 3000\nmax = 2000",
        "study.toml:37:7: constraint[1].max: must not be below min = 3000, is 2000"},
       {"reduced key that does not exist", "\"method.budget\" = 10", "\"methd.budget\" = 10",
