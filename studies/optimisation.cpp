@@ -237,7 +237,9 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
   const Objective objective{study.objective.output, study.objective.goal == Goal::maximise};
   const Problem problem(design, store, objective, constraints_of(study), report.baseline);
   report.limits = limits_of(study, problem);
-  Monitor monitor(static_cast<std::size_t>(study.method.budget), options.stop, options.progress);
+  // At least one new evaluation in every run: else runs shorter than the baseline would never come to an end.
+  const auto stop = [&] { return options.stop && options.stop() && store.counts().done > 0; };
+  Monitor monitor(static_cast<std::size_t>(study.method.budget), stop, options.progress);
   GearEvaluator fresh(study.gear, design, loads, forward);
   const OptimiseSettings settings{.search = {.method = report.method,
                                              .budget = static_cast<std::size_t>(study.method.budget),

@@ -103,7 +103,7 @@ TEST(SearchJournal, OfAnotherModelIsRefused) {
 class SearchCommand : public StudyShell {
 protected:
   /// One variable on a coarse cup.
-  void write_search(int budget, const std::string& more = "") {
+  void write_search(int budget, const std::string& more = "", int phases = 1) {
     folder.write("seed.toml", file_text(gallery + "seed.toml"));
     folder.write("search.toml", fmt::format(R"(kind = "optimize"
 gear = "seed.toml"
@@ -115,6 +115,7 @@ mesh.diaphragm = 3
 mesh.tooth_height = 1
 [[load_case]]
 torque_nm = 7.0
+phases = {}
 [[variable]]
 path = "flank_modification.flexspline.tip_relief_um"
 lower = 0.0
@@ -124,15 +125,15 @@ output = "peak_force_n"
 [method]
 budget = {}
 {})",
-                                            budget, more));
+                                            phases, budget, more));
   }
 };
 
 TEST_F(SearchCommand, StoppedSearchesGoOnToTheBitsOfAnUninterruptedOne) {
-  write_search(60);
+  write_search(200, "", 6); // long enough to be stopped
   ASSERT_EQ(shell("PROGRAM study run search.toml --out whole").code, 0);
   int stopped = 0;
-  for (int i = 0; i < 50 && shell("PROGRAM study run search.toml --out parts --time-limit 0.12").code == 75;
+  for (int i = 0; i < 200 && shell("PROGRAM study run search.toml --out parts --time-limit 0.3").code == 75;
        ++i)
     ++stopped;
   EXPECT_GT(stopped, 0);

@@ -80,7 +80,8 @@ std::vector<Number> numbers(const ForwardResult& r, const ForwardGradient* g, Ei
     }
   }
   add(
-      "least backlash", r.backlash->min_um, [&] { return g->min_backlash_um(j); }, 1e-11);
+      "least backlash", r.backlash->assembled ? r.backlash->assembled->min_um : r.backlash->min_um,
+      [&] { return g->min_backlash_um(j); }, 1e-11);
   add(
       "assembly force", r.assembly->contact_force_n, [&] { return g->assembly_force_n(j); }, 1e-8);
   if (r.stiffness) {
