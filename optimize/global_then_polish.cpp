@@ -111,7 +111,16 @@ SearchResult global_then_polish(const Problem& problem, const OptimiseSettings& 
   const std::size_t n = problem.design().size();
   const double separation =
       0.3 * std::pow(static_cast<double>(found.seen.size() + 1), -1.0 / static_cast<double>(n));
-  const auto valleys = best_apart(problem, found.seen, std::max<std::size_t>(1, settings.starts), separation);
+  auto valleys = best_apart(problem, found.seen, std::max<std::size_t>(1, settings.starts), separation);
+  // The study's own start is a valley too: a designer's first guess, and where many variables leave a survey thin the best there
+  // is. It takes the place of the least promising one.
+  const std::vector<double> own = problem.design().scaled(problem.design().start());
+  const auto start = std::find_if(found.seen.begin(), found.seen.end(),
+                                  [&](const SearchPoint& point) { return point.y == own; });
+  const bool known =
+      std::any_of(valleys.begin(), valleys.end(), [&](const SearchPoint& point) { return point.y == own; });
+  if (start != found.seen.end() && !known && valleys.size() > 1)
+    valleys.back() = *start;
   if (!valleys.empty())
     add(found, polish_all(problem, valleys, settings, left_of(budget, found.asked), monitor));
   return found;

@@ -38,12 +38,12 @@ protected:
 };
 
 TEST_F(StudyCommand, ReducedGalleryStudyEndsInAGearThatAnalyzeAccepts) {
-  const End run = shell("PROGRAM study run " + gallery + "seed_optimize.toml --reduced --json");
+  const End run = shell("PROGRAM study run " + gallery + "seed_optimize_one_point.toml --reduced --json");
   ASSERT_EQ(run.code, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json["verdict"], "converged");
-  EXPECT_EQ(json["folder"], "seed_optimize-reduced-result");
-  const End again = shell("PROGRAM analyze seed_optimize-reduced-result/best.toml --json");
+  EXPECT_EQ(json["folder"], "seed_optimize_one_point-reduced-result");
+  const End again = shell("PROGRAM analyze seed_optimize_one_point-reduced-result/best.toml --json");
   ASSERT_EQ(again.code, 0) << again.err;
   EXPECT_EQ(nlohmann::json::parse(again.out)["load"][0]["peak_force_n"],
             json["best"]["outputs"]["peak_force_n"]);
@@ -59,10 +59,10 @@ TEST_F(StudyCommand, EveryReducedStudyOfTheGalleryEndsWithADesign) {
 }
 
 TEST_F(StudyCommand, TimeLimitStopsWith75) {
-  const End end = shell("PROGRAM study run " + gallery + "seed_optimize.toml --time-limit 0.2 --threads 1");
+  const End end = shell("PROGRAM study run " + gallery + "seed_optimize_one_point.toml --time-limit 0.2 --threads 1");
   EXPECT_EQ(end.code, 75) << end.err;
   EXPECT_NE(end.err.find("stopped"), std::string::npos);
-  EXPECT_TRUE(std::filesystem::exists(folder / "seed_optimize-result/plan.json"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "seed_optimize_one_point-result/plan.json"));
 }
 
 TEST_F(StudyCommand, FolderOfAnotherStudyIsRefusedAndFinishedResultsAreAnsweredFromIt) {
@@ -71,7 +71,7 @@ TEST_F(StudyCommand, FolderOfAnotherStudyIsRefusedAndFinishedResultsAreAnsweredF
   const End whole = shell(first);
   ASSERT_EQ(whole.code, 0);
   const std::string best = file_text((folder / "kept/best.toml").string());
-  const End other = shell("PROGRAM study run " + gallery + "seed_optimize.toml --reduced --out kept");
+  const End other = shell("PROGRAM study run " + gallery + "seed_optimize_one_point.toml --reduced --out kept");
   EXPECT_EQ(other.code, 2);
   EXPECT_NE(other.err.find("another study"), std::string::npos) << other.err;
   const End again = shell(first);
@@ -87,7 +87,7 @@ TEST_F(StudyCommand, SignalsStopWith75) {
     // one.
     const End end =
         shell(fmt::format("(sleep 0.3; kill -{} $(cat pid)) & sh -c 'echo $$ > pid; exec PROGRAM study run "
-                          "{}seed_optimize.toml --threads 1'",
+                          "{}seed_optimize_one_point.toml --threads 1'",
                           signal, gallery));
     EXPECT_EQ(end.code, 75) << signal << end.err;
   }
@@ -95,7 +95,7 @@ TEST_F(StudyCommand, SignalsStopWith75) {
 
 TEST_F(StudyCommand, WrongFilesEndWith2AndThePlace) {
   folder.write("seed.toml", file_text(gallery + "seed.toml"));
-  const std::string good = file_text(gallery + "seed_optimize.toml");
+  const std::string good = file_text(gallery + "seed_optimize_one_point.toml");
   const auto complaint = [&](const std::string& old, const std::string& replacement) {
     std::string text = good;
     text.replace(text.find(old), old.size(), replacement);
@@ -115,7 +115,7 @@ TEST_F(StudyCommand, WrongFilesEndWith2AndThePlace) {
 
 TEST_F(StudyCommand, OutputThatTheLoadsCannotGiveIsRefusedWithTheRemedy) {
   folder.write("seed.toml", file_text(gallery + "seed.toml"));
-  std::string text = file_text(gallery + "seed_optimize.toml");
+  std::string text = file_text(gallery + "seed_optimize_one_point.toml");
   for (const auto& [old, replacement] :
        {std::pair{"phases = 4", "phases = 1"}, {"\"peak_force_n\"", "\"transmission_error_arcsec\""}})
     text.replace(text.find(old), std::string(old).size(), replacement);
@@ -128,7 +128,7 @@ TEST_F(StudyCommand, OutputThatTheLoadsCannotGiveIsRefusedWithTheRemedy) {
 
 TEST_F(StudyCommand, NoFeasibleDesignEndsWith3AndShowsTheNearest) {
   folder.write("seed.toml", file_text(gallery + "seed.toml"));
-  std::string text = file_text(gallery + "seed_optimize.toml");
+  std::string text = file_text(gallery + "seed_optimize_one_point.toml");
   text.replace(text.find("min_ratio_to_baseline = 0.95"), 28, "min_ratio_to_baseline = 1.95");
   folder.write("study.toml", text);
   const End end = shell("PROGRAM study run study.toml --reduced");
@@ -138,7 +138,7 @@ TEST_F(StudyCommand, NoFeasibleDesignEndsWith3AndShowsTheNearest) {
 
 TEST_F(StudyCommand, FolderThatCannotBeMadeEndsWith74) {
   folder.write("taken", "a file");
-  EXPECT_EQ(shell("PROGRAM study run " + gallery + "seed_optimize.toml --reduced --out taken/results").code,
+  EXPECT_EQ(shell("PROGRAM study run " + gallery + "seed_optimize_one_point.toml --reduced --out taken/results").code,
             74);
 }
 

@@ -49,8 +49,9 @@ TEST(StudySchema, AcceptsTheGalleryAndRefusesSlips) {
   const auto text_of = [](const char* name) {
     return file_text(STRAINWAVE_SOURCE "/studies/gallery/" + std::string(name) + ".toml");
   };
-  for (const char* name : {"seed_optimize", "seed_pareto", "seed_multi_load", "seed_relief_only",
-                           "seed_overnight_sweep", "seed_tolerance", "seed_sensitivity"})
+  for (const char* name :
+       {"seed_optimize", "seed_optimize_coned", "seed_optimize_one_point", "seed_pareto", "seed_multi_load",
+        "seed_relief_only", "seed_overnight_sweep", "seed_tolerance", "seed_sensitivity"})
     add(text_of(name), true);
   const std::string search = text_of("seed_optimize"), sweep = text_of("seed_overnight_sweep"),
                     sampled = text_of("seed_tolerance");
