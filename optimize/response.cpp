@@ -42,6 +42,28 @@ double largest_rotation(const LoadResult& load) {
   return rotation;
 }
 
+/// Of the nearer one of the two teeth on either side of the zone around the tooth with the largest force.
+double edge_backlash(const LoadResult& load) {
+  const std::vector<double>& force = load.force_n;
+  const auto peak = std::max_element(force.begin(), force.end());
+  if (peak == force.end() || !(*peak > 0.0))
+    return none;
+  auto first = peak, last = peak;
+  while (first != force.begin() && *(first - 1) > 0.0)
+    --first;
+  while (last + 1 != force.end() && *(last + 1) > 0.0)
+    ++last;
+  const auto gap = [&](auto tooth) {
+    return load.loaded_backlash_um[static_cast<std::size_t>(tooth - force.begin())];
+  };
+  double nearer = std::numeric_limits<double>::infinity();
+  if (first != force.begin())
+    nearer = gap(first - 1);
+  if (last + 1 != force.end())
+    nearer = std::min(nearer, gap(last + 1));
+  return std::isfinite(nearer) ? nearer : none;
+}
+
 constexpr bool largest = true;
 constexpr bool least = false;
 
@@ -95,6 +117,8 @@ const std::array rows{
           const double b = least_backlash(r);
           return std::isnan(b) ? none : std::max(0.0, -b);
         }},
+    Row{{"edge_backlash_um", "µm", "loaded backlash of the nearest tooth beside the zone that carries"},
+        [](std::span<const ForwardResult> r) { return worst(r, least, edge_backlash); }},
     Row{{"secant_nm_per_rad", "N·m/rad", "torsional stiffness: rated torque over wind-up"},
         of_stiffness<&StiffnessResult::secant_nm_per_rad>},
     Row{{"tangent_stiffness_nm_per_rad", "N·m/rad", "slope of torque over rotation under load"},
@@ -113,6 +137,10 @@ const std::array rows{
         [](std::span<const ForwardResult> r) {
           return r.front().fidelity == Fidelity::linear ? none
                                                         : of_load<&LoadResult::disc_force_n, largest>(r);
+        }},
+    Row{{"rim_strain", "", "largest bending strain of the rim by the wave generator"},
+        [](std::span<const ForwardResult> r) {
+          return r.front().wave_generator ? r.front().wave_generator->rim_strain : none;
         }},
     Row{{"assembly_force_n", "N", "resultant on one disc along the major axis, assembled, without load"},
         [](std::span<const ForwardResult> r) {

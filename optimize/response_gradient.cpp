@@ -140,6 +140,7 @@ std::map<std::string_view, Slopes> slopes_by_name(std::span<const ForwardResult>
                                                                        : first.backlash->min_um) < 0.0;
   slopes["interference_um"] = interferes ? Slopes(-gradient.min_backlash_um.transpose())
                                          : Slopes(Slopes::Zero(gradient.min_backlash_um.size()));
+  slopes["rim_strain"] = gradient.rim_strain.transpose();
   slopes["assembly_force_n"] = gradient.assembly_force_n.transpose();
   if (first.stiffness) {
     const StiffnessResult& s = *first.stiffness;

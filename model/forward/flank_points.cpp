@@ -141,8 +141,7 @@ std::vector<LoadedPoint> flank_points(const Gear& gear, const UnitResponses& res
       };
       const double edge =
           ends.front().flank_height; // the circular spline's tip edge, or the flexspline's root
-      add(ends.front(), edge > 1e-12 ? ContactPlace::circular_spline_tip : ContactPlace::flexspline_root,
-          -1);
+      add(ends.front(), edge > 1e-12 ? ContactPlace::circular_spline_tip : ContactPlace::flexspline_root, -1);
       for (std::size_t level = 0; level < responses.flank_radius_mm.size(); ++level) {
         const bool last = level + 1 == responses.flank_radius_mm.size();
         const double h =

@@ -3,6 +3,7 @@
 #include "model/forward/analysis.hpp"
 #include "model/forward/inputs.hpp"
 #include "model/gear/fields.hpp"
+#include "model/kinematics/rim_strain.hpp"
 #include "model/tooth/consistency.hpp"
 
 #include <fmt/format.h>
@@ -17,12 +18,13 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-WaveGeneratorResult describe(const NeutralCurve& curve) {
+WaveGeneratorResult describe(const NeutralCurve& curve, const Flexspline& flexspline) {
   const CurveSummary& s = curve.summary();
   return {.wrap_angle_deg = s.wrap_angle_rad.value_or(0.0) / degree,
           .disc_radius_mm = s.disc_radius_mm.value_or(0.0),
           .eccentricity_mm = s.eccentricity_mm.value_or(0.0),
           .u90_mm = s.u90_mm,
+          .rim_strain = rim_strain(curve, flexspline.rim_thickness_mm),
           .shape = std::string(choice_name(curve.shape()))};
 }
 
@@ -210,7 +212,7 @@ std::optional<Failure> Analysis::kinematics() {
   if (!*curve)
     return curve->failure();
   curve_ = curve;
-  result_.wave_generator = describe(**curve);
+  result_.wave_generator = describe(**curve, gear_.flexspline);
   return std::nullopt;
 }
 
@@ -324,8 +326,7 @@ Outcome<std::shared_ptr<const PhaseModel>> Analysis::phase_model(double phase) {
       start = found->second;
   }
   auto model = std::make_shared<const PhaseModel>(gear_.contact, ring_->compliance, *surface_, *assembled,
-                                                  std::move(points).value(), std::move(coast).value(),
-                                                  start);
+                                                  std::move(points).value(), std::move(coast).value(), start);
   if (phases_.size() >= most_phases_kept)
     phases_.clear(); // some MB each
   phases_.emplace(phase, model);

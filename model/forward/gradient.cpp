@@ -4,6 +4,8 @@
 #include "model/forward/gradient_phase.hpp"
 #include "model/forward/inputs.hpp"
 #include "model/forward/pressure.hpp"
+#include "model/gear/fields.hpp"
+#include "model/kinematics/rim_strain.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -54,18 +56,42 @@ Eigen::VectorXd least_backlash_slopes(const Gear& gear, const NeutralCurve& curv
   return 1e3 * slopes.gap;
 }
 
-/// Slopes of the largest contact pressure, and it.
-std::pair<Eigen::VectorXd, double> peak_pressure(const Gear& gear, const PhaseSlopes& slopes,
+/// Slopes of the largest contact pressure, and it; only for the phase that has the load's `peak_mpa`.
+std::pair<Eigen::VectorXd, double> peak_pressure(FlankPressure& pressure, double peak_mpa,
+                                                 const PhaseSlopes& slopes,
                                                  const std::vector<LoadedPoint>& points,
                                                  const PhaseLoad& load, const Eigen::MatrixXd& force) {
-  const std::vector<LineContact> contacts = FlankPressure(gear).of(points, load.force_n);
+  const std::vector<LineContact> contacts = pressure.of(points, load.force_n);
   const auto peak = std::max_element(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) {
     return a.pressure_mpa < b.pressure_mpa;
   });
-  if (peak == contacts.end() || !(peak->pressure_mpa > 0.0))
+  if (peak == contacts.end() || !(peak->pressure_mpa > 0.0) || peak->pressure_mpa < peak_mpa)
     return {Eigen::VectorXd::Constant(force.cols(), std::numeric_limits<double>::quiet_NaN()), 0.0};
-  return {slopes.pressure(points, load, force, static_cast<std::size_t>(peak - contacts.begin())),
+  return {slopes.pressure(points, load, force, static_cast<std::size_t>(peak - contacts.begin()),
+                          peak->pressure_mpa),
           peak->pressure_mpa};
+}
+
+/// Of the rim's bending strain: central differences of the curve, whose strain is smooth in its own two numbers.
+Eigen::VectorXd rim_strain_slopes(const Gear& gear, const NeutralCurve& curve,
+                                  const std::vector<std::string>& parameters) {
+  Eigen::VectorXd slopes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    if (parameters[j] != "wave_generator.max_radial_deformation_mm" &&
+        parameters[j] != curve.shape_number_path())
+      continue;
+    const NumberPath number(parameters[j]);
+    const double value = number.get(gear), step = 1e-5 * value;
+    const auto at = [&](double other) {
+      Gear changed = gear;
+      number.set(changed, other);
+      const auto moved = NeutralCurve::make(changed.wave_generator, changed.flexspline);
+      return moved ? rim_strain(*moved, gear.flexspline.rim_thickness_mm)
+                   : std::numeric_limits<double>::quiet_NaN();
+    };
+    slopes(static_cast<Eigen::Index>(j)) = (at(value + step) - at(value - step)) / (2.0 * step);
+  }
+  return slopes;
 }
 
 /// The discs follow the parameters so that the radial displacement in the reference section stays u0. radial: its slopes by
@@ -122,6 +148,7 @@ ForwardGradient Analysis::gradient(std::span<const std::string> parameters) {
       slopes = std::make_unique<const PhaseSlopes>(inputs, known_assembly(phase));
     return *slopes;
   };
+  g.rim_strain = rim_strain_slopes(gear_, **curve_, g.parameters);
   g.assembly_force_n = at_phase(0.0).assembly_force();
   constexpr double degree = std::numbers::pi / 180.0;
   if (const auto& assembled = result_.backlash->assembled)
@@ -132,6 +159,7 @@ ForwardGradient Analysis::gradient(std::span<const std::string> parameters) {
         least_backlash_slopes(gear_, **curve_, g.parameters, result_.backlash->min_phi_deg * degree);
   g.load.resize(result_.load.size());
   std::vector<PhaseLoadSlopes> known; // by solved load
+  FlankPressure flank_pressure(gear_);
   for (const SolvedLoad& solved : solved_) {
     const PhaseSlopes& slopes = at_phase(solved.model_phase);
     const std::vector<LoadedPoint>& points = solved.model->points();
@@ -160,7 +188,9 @@ ForwardGradient Analysis::gradient(std::span<const std::string> parameters) {
       g.small_rotation_rad = of.rotation_rad;
       break;
     case SolvedLoad::Use::load_case: {
-      const auto [pressure, largest] = peak_pressure(gear_, slopes, points, solved.load, of.force_n);
+      const auto [pressure, largest] =
+          peak_pressure(flank_pressure, result_.load[solved.load_case].peak_pressure.mpa, slopes, points,
+                        solved.load, of.force_n);
       g.load[solved.load_case].push_back({.force_n = by_tooth(points, of.force_n, solved.direction),
                                           .rotation_rad = of.rotation_rad,
                                           .torque_nm = of.torque_nm,

@@ -32,7 +32,7 @@ struct ForwardGradient {
   };
   std::vector<std::vector<Phase>> load; ///< [load of the result][phase]
 
-  Eigen::VectorXd min_backlash_um, assembly_force_n;
+  Eigen::VectorXd min_backlash_um, assembly_force_n, rim_strain;
   Eigen::VectorXd take_up_rad;                            ///< as in the result: without the part below 0
   Eigen::VectorXd rated_rotation_rad, small_rotation_rad; ///< at the rated torque and at 4 % of it, phase 0
 };

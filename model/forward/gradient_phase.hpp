@@ -56,9 +56,9 @@ public:
   /// Of the backlash of the assembled cup at any material angle of the first lobe and place along the axis, mm: a least one,
   /// where the angle itself does not matter.
   Eigen::VectorXd assembled_backlash(double phi_rad, double z_mm) const;
-  /// Of the contact pressure (pressure.hpp) of a point that carries, MPa; `force` holds the slopes of all forces.
+  /// Of the contact pressure (pressure.hpp) of a point that carries `pressure_mpa`, MPa; `force` holds the slopes of all forces.
   Eigen::VectorXd pressure(const std::vector<LoadedPoint>& points, const PhaseLoad& load,
-                           const Eigen::MatrixXd& force, std::size_t point) const;
+                           const Eigen::MatrixXd& force, std::size_t point, double pressure_mpa) const;
   /// Of the assembled resultant on one disc, N.
   Eigen::VectorXd assembly_force() const;
   /// Of the radial displacement under sector 0 at z, mm, by column of the surface (the shift last).

@@ -42,11 +42,11 @@ std::optional<FlankPair> changed_flanks(const Gear& gear, const std::string& pat
 } // namespace
 
 Eigen::VectorXd PhaseSlopes::pressure(const std::vector<LoadedPoint>& points, const PhaseLoad& load,
-                                      const Eigen::MatrixXd& force, std::size_t point) const {
+                                      const Eigen::MatrixXd& force, std::size_t point,
+                                      double pressure) const {
   const Gear& gear = in_.gear;
   const LoadedPoint& at = points[point];
   const FlankPair& pair = in_.flanks[static_cast<std::size_t>(std::max(0, at.slice))];
-  const double pressure = FlankPressure(gear).of(points, load.force_n)[point].pressure_mpa;
   const PointChange by = change(at);
 
   // dw/w

@@ -28,13 +28,12 @@ struct Side {
   std::vector<int> tooth;
   std::vector<double> phi_deg, force_n, loaded_backlash_um, pressure_mpa;
   PressurePeak peak_pressure, peak_flank_pressure; ///< of all points; without tip edges
-  PointResults points; ///< empty with one point a tooth
+  PointResults points;                             ///< empty with one point a tooth
 };
 
 /// Drive or coast points of a load; `mirrored`: as seen in the coast direction.
 Side side_of(const std::vector<LoadedPoint>& points, const std::vector<double>& force_n,
-             const std::vector<double>& gap_um, bool mirrored, double phase,
-             FlankPressure& pressure) {
+             const std::vector<double>& gap_um, bool mirrored, double phase, FlankPressure& pressure) {
   Side side;
   const std::size_t n = points.size();
   const std::vector<LineContact> contacts = pressure.of(points, force_n);
@@ -106,7 +105,8 @@ LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction dir
   result.peak_pressure = drive.peak_pressure;
   result.peak_flank_pressure = drive.peak_flank_pressure;
   if (carries(load.coast_force_n)) {
-    Side coast = side_of(model.coast_points(), load.coast_force_n, load.coast_gap_um, mirrored, phase, pressure);
+    Side coast =
+        side_of(model.coast_points(), load.coast_force_n, load.coast_gap_um, mirrored, phase, pressure);
     result.coast = {std::move(coast.tooth), std::move(coast.phi_deg), std::move(coast.force_n), 0.0,
                     std::move(coast.points)};
     result.coast.peak_force_n = *std::max_element(result.coast.force_n.begin(), result.coast.force_n.end());

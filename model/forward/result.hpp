@@ -21,6 +21,7 @@ struct WaveGeneratorResult {
   double disc_radius_mm = 0.0; ///< to the neutral line; 0 for cams
   double eccentricity_mm = 0.0;
   double u90_mm = 0.0;
+  double rim_strain = 0.0; ///< largest bending strain of the rim's surface: t/2 |κ − 1/r_m| along the neutral line
   std::string shape;
 };
 

@@ -111,6 +111,7 @@ void put_all(const ForwardResult& result, hid_t file) {
     group.put("disc_radius", "mm", wg->disc_radius_mm);
     group.put("eccentricity", "mm", wg->eccentricity_mm);
     group.put("u90", "mm", wg->u90_mm);
+    group.put("rim_strain", "1", wg->rim_strain);
   }
   if (const auto& b = result.backlash) {
     Group group(file, "backlash");

@@ -66,8 +66,9 @@ Json load_json(const LoadResult& load) {
   json["peak_pressure_mpa"] = load.peak_pressure.mpa;
   if (load.peak_pressure.mpa > 0.0) {
     const PressurePeak& at = load.peak_pressure;
-    json["peak_pressure_at"] = {{"tooth", at.tooth}, {"phi_deg", at.phi_deg}, {"height_mm", at.flank_radius_mm},
-                                {"z_mm", at.z_mm},   {"phase", at.phase},     {"edge", at.edge}};
+    json["peak_pressure_at"] = {
+        {"tooth", at.tooth}, {"phi_deg", at.phi_deg}, {"height_mm", at.flank_radius_mm},
+        {"z_mm", at.z_mm},   {"phase", at.phase},     {"edge", at.edge}};
   } else {
     json["peak_pressure_at"] = nullptr;
   }
@@ -105,7 +106,8 @@ Json result_json(const ForwardResult& result) {
                               {"wrap_angle_deg", number(wg->wrap_angle_deg)},
                               {"disc_radius_mm", number(wg->disc_radius_mm)},
                               {"eccentricity_mm", number(wg->eccentricity_mm)},
-                              {"u90_mm", number(wg->u90_mm)}};
+                              {"u90_mm", number(wg->u90_mm)},
+                              {"rim_strain", number(wg->rim_strain)}};
   }
   if (const auto& b = result.backlash) {
     json["backlash"] = {{"tooth", b->tooth},

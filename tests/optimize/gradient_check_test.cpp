@@ -135,7 +135,8 @@ TEST(GradientCheck, AgreesWithAllResponsesOfTheSeedGearWithLinksAndSeveralLoads)
   const GradientCheck check = check_gradient(evaluator, design, design.start());
   ASSERT_TRUE(check.ok) << check.message;
   for (const SlopeCheck& slope : check.slopes)
-    EXPECT_EQ(slope.verdict, SlopeVerdict::right)
+    EXPECT_EQ(slope.verdict,
+              slope.response == "edge_backlash_um" ? SlopeVerdict::unknown : SlopeVerdict::right)
         << slope.response << " by " << design.variables()[slope.variable].path.path() << ": " << slope.exact
         << " against " << slope.difference;
 }
@@ -153,9 +154,12 @@ TEST(GearEvaluatorGradient, OfTheLargestForceIsThatOfItsPiece) {
   ASSERT_EQ(pieces.size(), 2 * at.pieces.size());
   for (std::size_t i = 0; i < 2; ++i)
     EXPECT_EQ(gradient[2 * *evaluator.pieces_of() + i], pieces[2 * peak + i]);
-  EXPECT_EQ(GearEvaluator(coarse_seed(), design, {{.torque_nm = {7.0}, .rotation_rad = {}, .phases = 3}})
-                .gradient(x),
-            gradient);
+  const std::vector<double> other =
+      GearEvaluator(coarse_seed(), design, {{.torque_nm = {7.0}, .rotation_rad = {}, .phases = 3}})
+          .gradient(x);
+  ASSERT_EQ(other.size(), gradient.size());
+  for (std::size_t i = 0; i < gradient.size(); ++i) // not a number: no exact slope
+    EXPECT_TRUE(other[i] == gradient[i] || (std::isnan(other[i]) && std::isnan(gradient[i]))) << i;
 }
 
 TEST(GearEvaluatorGradient, DifferencesWhatActsThroughTheFiniteElements) {

@@ -17,11 +17,11 @@ protected:
       shell(recipes + "one-node-slurm.sh stop slurm; sleep 1");
   }
 
-  /// 1600 rows: some seconds in three shards.
+  /// 6400 rows: some seconds in three shards.
   void write_study() {
     write_sweep();
     const std::string text = file_text((folder / "sweep.toml").string());
-    folder.write("sweep.toml", edited(text, "count = 16", "count = 400"));
+    folder.write("sweep.toml", edited(text, "count = 16", "count = 1600"));
     ASSERT_EQ(shell("PROGRAM study run sweep.toml --out whole").code, 0);
   }
   bool installed(const std::string& tool) {
