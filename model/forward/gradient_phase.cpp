@@ -195,7 +195,9 @@ const PhaseSlopes::PointChange& PhaseSlopes::change(const LoadedPoint& point) co
     spot.roll = contact.roll;
   } else {
     if (point.level > 0) {
-      spot.height = gap_height(point.level, in_.gear.contact.flank_points);
+      const int heights = in_.gear.contact.flank_points;
+      spot.height = gap_height(point.level, heights);
+      spot.place = point.level + 1 == heights ? ContactPlace::flexspline_tip : ContactPlace::flank;
     } else { // the circular spline's tip edge, or the flexspline's root
       const bool root = point.flank_radius_mm <= fs.root_radius_mm + 1e-12 * height;
       spot.place = root ? ContactPlace::flexspline_root : ContactPlace::circular_spline_tip;

@@ -32,10 +32,9 @@ void for_each_flank_number(GearNumbers<S>& g, const Function& f) {
 T pressure_angle(const ToothPair<T>& pair, const T& neutral_radius, const T& rho, const T& normal_rotation,
                  const ContactSpot& spot, const T& t, const T& contact_radius) {
   using std::atan2, std::cos, std::sin, std::sqrt;
-  const bool edge = spot.height ? *spot.height >= 1.0
-                                : spot.place == ContactPlace::flexspline_tip ||
-                                      spot.place == ContactPlace::flexspline_root ||
-                                      spot.place == ContactPlace::flexspline_kink;
+  const bool edge = spot.place == ContactPlace::flexspline_tip ||
+                    spot.place == ContactPlace::flexspline_root ||
+                    spot.place == ContactPlace::flexspline_kink;
   if (edge) {
     const T base = pair.circular_spline.base;
     const T ratio = contact_radius / base;

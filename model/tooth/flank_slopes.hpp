@@ -29,7 +29,8 @@ struct PoseSlopes {
 
 /// Where on the flank the contact is taken.
 struct ContactSpot {
-  std::optional<double> height; ///< fixed h on the flexspline; absent: the place below
+  std::optional<double>
+      height; ///< fixed h on the flexspline; absent: the place below (which says whose normal it is anyway)
   ContactPlace place = ContactPlace::flank;
   int kink = 0;
   double roll =
