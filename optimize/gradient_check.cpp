@@ -31,7 +31,8 @@ double rounding(const Line& line, std::size_t k, double noise, double size) {
 }
 
 void judge(const Line& line, double range, double noise, SlopeCheck& check) {
-  const double size = std::max({std::abs(check.exact), 1e-6 * std::abs(check.value) / range, 1e-300});
+  // A slope that changes the response by less than a thousandth over the whole range is judged as one that does.
+  const double size = std::max({std::abs(check.exact), 1e-3 * std::abs(check.value) / range, 1e-300});
   std::array<double, steps> error{};
   check.least_error = std::numeric_limits<double>::infinity();
   std::size_t best = 0;
