@@ -141,6 +141,34 @@ TEST(GradientCheck, AgreesWithAllResponsesOfTheSeedGearWithLinksAndSeveralLoads)
         << " against " << slope.difference;
 }
 
+TEST(GradientCheck, AgreesOverTheWholeFlankWithForcesAlongItsNormal) {
+  // Loaded tip edges beside loaded flanks, knots of the free form on the heights, slices with flanks of their own.
+  for (const GapModel gaps : {GapModel::kinematic, GapModel::assembled}) {
+    Gear gear = coarse_seed();
+    gear.contact.flank_points = 5;
+    gear.contact.face_slices = 3;
+    gear.contact.gaps = gaps;
+    gear.contact.force_direction = ForceDirection::flank_normal;
+    gear.flank_modification.flexspline.spline_um = {1.3, 1.2, 1.8, 2.1, 2.4};
+    if (gaps == GapModel::assembled)
+      gear.circular_spline.profile_shift = 2.42;
+    const double x2 = gear.circular_spline.profile_shift;
+    const DesignSpace design({variable("flank_modification.flexspline.spline_um[3]", 0.0, 8.0, 2.1),
+                              variable("flank_modification.flexspline.lead_taper_um", -8.0, 8.0, 3.1),
+                              variable("flank_modification.flexspline.lead_crowning_um", 0.0, 8.0, 1.3),
+                              variable("circular_spline.profile_shift", x2 - 0.1, x2 + 0.1, x2),
+                              variable("wave_generator.max_radial_deformation_mm", 0.19, 0.21, 0.2)});
+    GearEvaluator evaluator(gear, design, {{.torque_nm = {7.0}, .rotation_rad = {}, .phases = 2}});
+    const GradientCheck check = check_gradient(evaluator, design, design.start());
+    ASSERT_TRUE(check.ok) << check.message;
+    EXPECT_EQ(check.wrong, 0u);
+    for (const SlopeCheck& slope : check.slopes)
+      EXPECT_NE(slope.verdict, SlopeVerdict::wrong)
+          << slope.response << " by " << design.variables()[slope.variable].path.path() << ": " << slope.exact
+          << " against " << slope.difference;
+  }
+}
+
 TEST(GearEvaluatorGradient, OfTheLargestForceIsThatOfItsPiece) {
   const DesignSpace design({variable("flank_modification.flexspline.tip_relief_um", 0.0, 8.0, 2.3),
                             variable("circular_spline.profile_shift", 2.1, 2.3, 2.2)});
