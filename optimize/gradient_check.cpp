@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <tuple>
 
 namespace strainwave {
@@ -18,6 +19,7 @@ struct Line {
   double side = 1.0; ///< of a one-sided line
   std::array<double, steps> h{}, low{}, high{}, far{};
   double middle = 0.0;
+  double terms = 0.0; ///< size of what the value is made of, whose rounding it has
 
   double difference(std::size_t k) const {
     return central ? (high[k] - low[k]) / (2.0 * h[k])
@@ -27,12 +29,11 @@ struct Line {
 
 /// Both ends of the range of relative error that one difference may have by rounding.
 double rounding(const Line& line, std::size_t k, double noise, double size) {
-  return 4.0 * noise * std::max(std::abs(line.middle), 1e-300) / (line.h[k] * size);
+  return 4.0 * noise * std::max(line.terms, 1e-300) / (line.h[k] * size);
 }
 
 void judge(const Line& line, double range, double noise, SlopeCheck& check) {
-  // A slope that changes the response by less than a thousandth over the whole range is judged as one that does.
-  const double size = std::max({std::abs(check.exact), 1e-3 * std::abs(check.value) / range, 1e-300});
+  const double size = std::max({std::abs(check.exact), 1e-6 * std::abs(check.value) / range, 1e-300});
   std::array<double, steps> error{};
   check.least_error = std::numeric_limits<double>::infinity();
   std::size_t best = 0;
@@ -128,12 +129,23 @@ Line line_of(const Neighbours& near, const std::vector<double> Evaluation::*list
             .low = {},
             .high = {},
             .far = {},
-            .middle = middle};
+            .middle = middle,
+            .terms = std::abs(middle)};
   for (std::size_t k = 0; k < steps; ++k) {
     line.high[k] = (near.high[k].*list)[r];
     (near.central ? line.low[k] : line.far[k]) = ((near.central ? near.low[k] : near.far[k]).*list)[r];
   }
   return line;
+}
+
+/// The transmission error is a small difference of rotations and has their rounding; others have that of their own size.
+double terms_of(std::string_view response, double value, std::span<const Response> responses,
+                const std::vector<double>& values) {
+  constexpr double arcsec_per_rad = 180.0 * 3600.0 / std::numbers::pi;
+  const auto rotation = find_response(responses, "rotation_rad");
+  if (response != "transmission_error_arcsec" || !rotation)
+    return std::abs(value);
+  return std::max(std::abs(value), arcsec_per_rad * std::abs(values[*rotation]));
 }
 
 bool worse(const SlopeCheck& a, const SlopeCheck& b) {
@@ -165,8 +177,11 @@ GradientCheck check_gradient(Evaluator& evaluator, const DesignSpace& design, st
       SlopeCheck one{.response = std::move(name), .variable = i, .value = (base.*list)[r], .exact = slope};
       if (!near.ok || !std::isfinite(slope))
         one.verdict = SlopeVerdict::unknown;
-      else
-        judge(line_of(near, list, r, one.value), range, options.noise, one);
+      else {
+        Line line = line_of(near, list, r, one.value);
+        line.terms = terms_of(one.response, one.value, responses, base.values);
+        judge(line, range, options.noise, one);
+      }
       return one;
     };
     for (std::size_t r = 0; r < responses.size(); ++r)
