@@ -2,6 +2,8 @@
 #include "app/output.hpp"
 #include "optimize/gradient_check.hpp"
 #include "studies/optimisation.hpp"
+#include "studies/study_kinds.hpp"
+#include "studies/study_gear.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -4,6 +4,8 @@
 #include "app/output.hpp"
 #include "app/stop_request.hpp"
 #include "studies/optimisation.hpp"
+#include "studies/study_kinds.hpp"
+#include "studies/study_gear.hpp"
 
 #include <memory>
 

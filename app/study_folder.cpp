@@ -8,6 +8,8 @@
 #include "studies/sampled_text.hpp"
 #include "studies/study_compare.hpp"
 #include "studies/study_status.hpp"
+#include "studies/study_kinds.hpp"
+#include "studies/study_gear.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -5,6 +5,8 @@
 #include "app/study.hpp"
 #include "studies/optimisation.hpp"
 #include "studies/study_pilot.hpp"
+#include "studies/study_kinds.hpp"
+#include "studies/study_gear.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -5,6 +5,7 @@
 #include "app/stop_request.hpp"
 #include "app/study.hpp"
 #include "studies/sampled_text.hpp"
+#include "studies/study_kinds.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -47,7 +48,7 @@ ExitCode run_rows_of(const StudyOptions& options, const StudyFile& study, const 
         "a study that stops by itself (sampling.stop) cannot be cut into shards: they would not know of "
         "each other");
   std::optional<ProgressLine> line(std::in_place);
-  const auto made = run_sampled(study, folder,
+  const auto made = run_sampled(study, make_rows, folder,
                                 {.threads = options.threads,
                                  .disk_cache = !options.no_cache,
                                  .shard = shard.number,

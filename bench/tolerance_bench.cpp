@@ -5,6 +5,7 @@
 #include "studies/sampling/design.hpp"
 #include "studies/sampling/sources.hpp"
 #include "studies/tolerance/tolerance_model.hpp"
+#include "studies/monte_carlo_rows.hpp"
 
 #include <benchmark/benchmark.h>
 

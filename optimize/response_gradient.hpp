@@ -2,7 +2,7 @@
 // Derivatives of the responses of response.hpp from those of the forward results: of the load, phase and tooth that are the
 // worst of all. Where two are equally bad the response has a kink and this is one side of it.
 
-#include "model/forward/gradient.hpp"
+#include "model/forward/forward_gradient.hpp"
 #include "optimize/response.hpp"
 
 namespace strainwave {

@@ -1,5 +1,7 @@
 // Rows of a Monte Carlo study: sample k of the design through all sources.
 
+#include "studies/monte_carlo_rows.hpp"
+
 #include "studies/sampled_gear.hpp"
 #include "studies/sampling/design.hpp"
 

@@ -92,14 +92,7 @@ struct OptimisationReport {
 /// By status, the most frequent first.
 std::vector<FailureCount> count_failures(const std::vector<StoredPoint>& points);
 
-/// The names that study files may use here, for load_study().
-StudyVocabulary study_vocabulary();
-
-/// The loads of a study: cases with the same phases and direction share one analysis.
-std::vector<Load> study_loads(const StudyFile& study);
 DesignSpace study_design(const StudyFile& study);
-/// The study's gear with the study's loads in its [load], so that an analysis of it gives the study's numbers.
-Gear gear_with_loads(const StudyFile& study);
 
 /// Throws FieldError where the study asks for what cannot be (a ratio to a baseline of 0). A baseline without
 /// a result, or one that interferes, is no baseline: Outcome's Failure.

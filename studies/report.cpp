@@ -3,6 +3,7 @@
 #include "studies/journal/whole_file.hpp"
 #include "studies/result_folder.hpp"
 #include "studies/sampled_run.hpp"
+#include "studies/study_gear.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,7 @@
 #include "studies/sampled_gear.hpp"
 
 #include "studies/study_units.hpp"
+#include "studies/sampled_outputs.hpp"
 
 #include <algorithm>
 #include <array>

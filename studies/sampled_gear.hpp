@@ -20,6 +20,7 @@
 #include "studies/sampled_sources.hpp"
 #include "studies/sampled_study.hpp"
 #include "studies/tolerance/tolerance_model.hpp"
+#include "studies/sampled_outputs.hpp"
 
 namespace strainwave {
 

@@ -1,7 +1,5 @@
 #include "studies/sampled_outputs.hpp"
 
-#include "studies/sampled_study.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -58,6 +56,16 @@ std::span<const Response> sampled_responses() {
     return all;
   }();
   return responses;
+}
+
+std::span<const std::string_view> sampled_response_names() {
+  static const auto names = [] {
+    std::vector<std::string_view> all;
+    for (const Response& response : sampled_responses())
+      all.push_back(response.name);
+    return all;
+  }();
+  return names;
 }
 
 SampledOutputs read_outputs(const SampledReading& reading) {

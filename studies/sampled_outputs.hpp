@@ -2,6 +2,7 @@
 // The outputs of one sample and how the worst of several positions and loads is taken.
 
 #include "model/contact/sampled_contact.hpp"
+#include "optimize/response.hpp"
 
 #include <array>
 #include <cstddef>
@@ -9,6 +10,12 @@
 #include <vector>
 
 namespace strainwave {
+
+/// The outputs that a row of monte_carlo or sensitivity can have; study files are checked against their names
+/// (StudyVocabulary::sampled_outputs). Response::unit is for people ("µm").
+std::span<const Response> sampled_responses();
+/// Their names alone, in the same order.
+std::span<const std::string_view> sampled_response_names();
 
 inline constexpr std::size_t sampled_output_count = 13;
 using SampledOutputs = std::array<double, sampled_output_count>; ///< in the order of sampled_responses()

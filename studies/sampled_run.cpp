@@ -45,33 +45,6 @@ std::vector<RowFailures> failures_of(const SampledStudy& rows, const RowTable& t
 
 } // namespace
 
-bool is_sampled(StudyKind kind) {
-  return kind != StudyKind::optimize && kind != StudyKind::pareto;
-}
-
-Outcome<SampledStudy> make_rows(const StudyFile& study, const RowOptions& options) {
-  switch (study.kind) {
-  case StudyKind::sweep:
-    return make_sweep_rows(study, options);
-  case StudyKind::monte_carlo:
-    return make_monte_carlo_rows(study, options);
-  case StudyKind::sensitivity:
-    return make_sensitivity_rows(study, options);
-  default:
-    throw std::logic_error("the points of a search are not known in advance");
-  }
-}
-
-std::span<const std::string_view> sampled_response_names() {
-  static const auto names = [] {
-    std::vector<std::string_view> all;
-    for (const Response& response : sampled_responses())
-      all.push_back(response.name);
-    return all;
-  }();
-  return names;
-}
-
 std::uint64_t sampled_model_hash(const SampledStudy& rows) {
   return content_hash(std::string(study_version()) + "\n" + rows.model_content);
 }
@@ -119,8 +92,8 @@ void write_sampled_results(const ResultFolder& folder, const SampledStudy& rows,
   folder.write_text("result.json", sampled_json(report, folder.path().string()).dump(2) + "\n");
 }
 
-Outcome<SampledReport> run_sampled(const StudyFile& study, const ResultFolder& folder,
-                                   const SampledOptions& options) {
+Outcome<SampledReport> run_sampled(const StudyFile& study, const RowMaker& make_rows,
+                                   const ResultFolder& folder, const SampledOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const int threads = options.threads > 0 ? options.threads : usable_threads();
   auto made = make_rows(study, {.threads = threads, .disk_cache = options.disk_cache, .warn = options.warn});

@@ -44,9 +44,8 @@ struct SampledReport {
   bool whole = false;           ///< every row of the study is in the table, or the stop rule was content
 };
 
-/// By the maker of the study's kind.
-Outcome<SampledStudy> make_rows(const StudyFile& study, const RowOptions& options);
-bool is_sampled(StudyKind kind);
+/// Makes the rows of a study; it may take its time (finite elements).
+using RowMaker = std::function<Outcome<SampledStudy>(const StudyFile& study, const RowOptions& options)>;
 
 EnginePlan engine_plan(const StudyFile& study, const SampledStudy& rows, std::uint32_t shard,
                        std::uint32_t shards);
@@ -55,8 +54,8 @@ ResultsTable results_table(const StudyFile& study, const SampledStudy& rows);
 
 /// The whole study in one process also writes results.h5 and result.json; a shard writes its journal alone. Throws
 /// JournalError, std::system_error, FieldError.
-Outcome<SampledReport> run_sampled(const StudyFile& study, const ResultFolder& folder,
-                                   const SampledOptions& options);
+Outcome<SampledReport> run_sampled(const StudyFile& study, const RowMaker& make_rows,
+                                   const ResultFolder& folder, const SampledOptions& options);
 
 /// A table that came from elsewhere (merge): report, results.h5 and result.json.
 SampledReport report_of(const StudyFile& study, const SampledStudy& rows, const RowTable& table);

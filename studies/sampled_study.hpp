@@ -9,10 +9,11 @@
 //     local          whatever rows are wanted; `elasticities` reads them
 //
 // A maker may take its time (the cup is solved here) and must give the same rows for the same StudyFile on every
-// machine: no clock, no thread count, no order of evaluation enters a row.
+// machine: no clock, no thread count, no order of evaluation enters a row. Its Failure: the nominal gear has no result
+// (exit 3). It throws FieldError for keys of the study that do not fit the gear, std::system_error, std::bad_alloc.
 
+#include "model/gear/gear.hpp"
 #include "model/gear/outcome.hpp"
-#include "optimize/response.hpp"
 #include "studies/engine/row_model.hpp"
 #include "studies/journal/results_table.hpp"
 #include "studies/sampling/morris_points.hpp"
@@ -72,19 +73,5 @@ struct SampledStudy {
   /// named inputs and outputs are all there is.
   std::function<std::string(std::uint64_t row)> describe_row;
 };
-
-/// The maker of a kind. Failure: the nominal gear has no result (exit 3). Throws FieldError for keys of the study that do
-/// not fit the gear, std::system_error, std::bad_alloc.
-Outcome<SampledStudy> make_sweep_rows(const StudyFile& study, const RowOptions& options); // sweep_rows.cpp
-Outcome<SampledStudy> make_monte_carlo_rows(const StudyFile& study,
-                                            const RowOptions& options); // monte_carlo_rows.cpp
-Outcome<SampledStudy> make_sensitivity_rows(const StudyFile& study,
-                                            const RowOptions& options); // sensitivity_rows.cpp
-
-/// The outputs that a row of monte_carlo or sensitivity can have; study files are checked against their names
-/// (StudyVocabulary::sampled_outputs). Response::unit is for people ("µm").  monte_carlo_rows.cpp
-std::span<const Response> sampled_responses();
-/// Their names alone, in the same order.  sampled_run.cpp
-std::span<const std::string_view> sampled_response_names();
 
 } // namespace strainwave

@@ -8,6 +8,8 @@
 //     local    row 0 with every source at its mean, then each source that is one number or an amplitude (at phase 0) a
 //              hundredth of its standard deviation up and down: derivatives by central differences.
 
+#include "studies/sensitivity_rows.hpp"
+
 #include "studies/sampled_gear.hpp"
 #include "studies/sampling/counter_random.hpp"
 #include "studies/sampling/sobol_points.hpp"

@@ -2,6 +2,8 @@
 
 #include "optimize/gear_evaluator.hpp"
 #include "studies/optimisation.hpp"
+#include "studies/study_kinds.hpp"
+#include "studies/study_gear.hpp"
 
 #include <algorithm>
 #include <chrono>

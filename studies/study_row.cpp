@@ -4,6 +4,8 @@
 #include "studies/journal/results_reader.hpp"
 #include "studies/optimisation.hpp"
 #include "studies/study_units.hpp"
+#include "studies/study_kinds.hpp"
+#include "studies/study_gear.hpp"
 
 #include <fmt/format.h>
 

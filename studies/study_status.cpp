@@ -4,6 +4,7 @@
 #include "studies/journal/merge.hpp"
 #include "studies/sampled_run.hpp"
 #include "studies/search_journal.hpp"
+#include "studies/study_gear.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -4,10 +4,11 @@
 // the wave generator, then all others, loads fastest; within a class as in the file. So a cup is solved once, an assembly
 // once for each cup and wave generator, and both are shared by all threads through one forward model.
 
+#include "studies/sweep_rows.hpp"
+
 #include "model/forward/forward.hpp"
-#include "studies/optimisation.hpp"
 #include "studies/row_status.hpp"
-#include "studies/sampled_study.hpp"
+#include "studies/study_gear.hpp"
 #include "studies/study_units.hpp"
 
 #include <fmt/format.h>

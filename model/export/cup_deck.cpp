@@ -2,7 +2,7 @@
 
 #include "model/flexspline/calculix.hpp"
 #include "model/flexspline/responses.hpp"
-#include "model/forward/inputs.hpp"
+#include "model/flexspline/response_request.hpp"
 
 #include <fmt/format.h>
 

@@ -90,7 +90,7 @@ private:
   /// Moves the discs until the neutral surface stands at u0 in the reference section, by the secant method.
   std::optional<Failure> shift_discs(bool& reused);
   std::optional<Failure> first_assembly();
-  std::optional<Failure> backlash_as_assembled(); // assembled_backlash.cpp
+  std::optional<Failure> backlash_as_assembled();
   /// The points that can meet their spaces at a phase. lobes = 1: those of the first lobe only.
   Outcome<std::vector<LoadedPoint>> loaded_points(double phase);
   /// Those of the coast flanks: the mirror image φ → −φ of the drive points at the mirrored phase.

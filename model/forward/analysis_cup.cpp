@@ -3,7 +3,8 @@
 #include "model/forward/analysis.hpp"
 
 #include "model/flexspline/response_store.hpp"
-#include "model/forward/inputs.hpp"
+#include "model/flexspline/response_request.hpp"
+#include "model/forward/gear_surface.hpp"
 
 #include <fmt/format.h>
 
@@ -185,6 +186,41 @@ std::optional<Failure> Analysis::compliance() {
     if (const auto flaw = result_.certificate->find_flaw())
       return Failure{Status::certificate_failed, "the certificate does not hold: " + *flaw};
   }
+  return std::nullopt;
+}
+
+std::optional<Failure> Analysis::backlash_as_assembled() {
+  if (gear_.contact.gaps != GapModel::assembled)
+    return std::nullopt;
+  const auto assembled = assembly(0.0);
+  if (!assembled)
+    return assembled.failure();
+  const std::vector<double> z = backlash_sections(gear_.flexspline);
+  std::vector<FlankPair> flanks;
+  for (const double at : z) {
+    auto pair = FlankPair::make(gear_, face_coordinate(gear_.flexspline, at));
+    if (!pair)
+      return pair.failure();
+    flanks.push_back(std::move(pair).value());
+  }
+  const AssembledPoses poses(ring_->compliance, **assembled, gear_.flexspline.neutral_radius_mm, 0.0, z);
+  std::vector<double> phi; // of one lobe; the other stands alike
+  const Backlash& table = tables_.at(0.0);
+  for (std::size_t i = 0; i < table.tooth.size(); ++i) {
+    if (table.lobe[i] == 0)
+      phi.push_back(table.phi_rad[i]);
+  }
+  AssembledBacklash b = assembled_backlash(
+      poses, flanks, z, phi, static_cast<double>(gear_.flexspline.teeth) / gear_.circular_spline.teeth);
+  b.interference = b.min_um < 0.0;
+  // the kinematic sentence speaks of a cup that does not stand like that
+  result_.message.clear();
+  if (b.interference) {
+    result_.message = fmt::format("the flanks of the assembled cup interfere before any load: least backlash "
+                                  "{:.3f} µm at φ = {:.3f}°, z = {:.3f} mm",
+                                  b.min_um, b.min_phi_deg, b.min_z_mm);
+  }
+  result_.backlash->assembled = std::move(b);
   return std::nullopt;
 }
 

@@ -1,6 +1,7 @@
 #include "model/forward/forward.hpp"
 
 #include "model/forward/analysis.hpp"
+#include "model/flexspline/response_request.hpp"
 #include "model/forward/inputs.hpp"
 #include "model/gear/fields.hpp"
 #include "model/kinematics/rim_strain.hpp"

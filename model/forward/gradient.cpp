@@ -2,7 +2,6 @@
 
 #include "model/forward/analysis.hpp"
 #include "model/forward/gradient_phase.hpp"
-#include "model/forward/inputs.hpp"
 #include "model/forward/pressure.hpp"
 #include "model/gear/fields.hpp"
 #include "model/kinematics/rim_strain.hpp"

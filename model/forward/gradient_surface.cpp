@@ -1,6 +1,6 @@
 #include "model/forward/gradient_surface.hpp"
 
-#include "model/forward/inputs.hpp"
+#include "model/forward/gear_surface.hpp"
 #include "model/gear/fields.hpp"
 
 #include <algorithm>

@@ -2,7 +2,8 @@
 
 #include "model/flexspline/response_store.hpp"
 #include "model/forward/flank_points.hpp"
-#include "model/forward/inputs.hpp"
+#include "model/flexspline/response_request.hpp"
+#include "model/forward/gear_surface.hpp"
 #include "model/tooth/backlash.hpp"
 
 #include <fmt/format.h>

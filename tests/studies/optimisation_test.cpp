@@ -6,6 +6,8 @@
 #include "studies/optimisation_text.hpp"
 #include "studies/results_file.hpp"
 #include "tests/studies/studies.hpp"
+#include "studies/study_kinds.hpp"
+#include "studies/study_gear.hpp"
 
 #include <gtest/gtest.h>
 #include <hdf5.h>

@@ -1,6 +1,6 @@
 // Rows of samples against one gear at a time: its own assembly, direct geometry and Newton steps on the whole ring.
 
-#include "model/forward/inputs.hpp"
+#include "model/forward/gear_surface.hpp"
 #include "tests/studies/sampled_rows.hpp"
 
 #include <gtest/gtest.h>

@@ -4,6 +4,7 @@
 #include "model/forward/forward.hpp"
 
 #include "tests/studies/sampled_rows.hpp"
+#include "studies/monte_carlo_rows.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -3,6 +3,8 @@
 
 #include "studies/sampled_gear.hpp"
 #include "tests/studies/cup_cache.hpp"
+#include "studies/monte_carlo_rows.hpp"
+#include "studies/sampled_outputs.hpp"
 
 #include <string>
 #include <utility>

@@ -8,6 +8,8 @@
 #include "studies/statistics/summary.hpp"
 
 #include "tests/studies/cup_cache.hpp"
+#include "studies/monte_carlo_rows.hpp"
+#include "studies/sensitivity_rows.hpp"
 
 #include <gtest/gtest.h>
 

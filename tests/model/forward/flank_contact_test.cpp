@@ -3,7 +3,8 @@
 #include "model/flexspline/responses.hpp"
 #include "model/forward/flank_points.hpp"
 #include "model/forward/forward.hpp"
-#include "model/forward/inputs.hpp"
+#include "model/flexspline/response_request.hpp"
+#include "model/forward/gear_surface.hpp"
 #include "model/forward/phase_model.hpp"
 
 #include <gtest/gtest.h>
