@@ -1,14 +1,14 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "app/result_table.hpp"
-#include "model/export/figures.hpp"
-#include "model/export/flank_figures.hpp"
-#include "model/export/replaced_file.hpp"
-#include "model/forward/forward.hpp"
-#include "model/forward/result_file.hpp"
-#include "model/forward/result_json.hpp"
-#include "model/gear/fields.hpp"
-#include "model/gear_file/gear_file.hpp"
+#include "strainwave/model/export/figures.hpp"
+#include "strainwave/model/export/flank_figures.hpp"
+#include "strainwave/common/files/replaced_file.hpp"
+#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/export/result_file.hpp"
+#include "strainwave/model/export/result_json.hpp"
+#include "strainwave/model/gear/fields.hpp"
+#include "strainwave/model/gear_file/gear_file.hpp"
 
 #include <cerrno>
 #include <filesystem>

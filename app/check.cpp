@@ -1,9 +1,9 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
-#include "model/forward/forward.hpp"
-#include "model/gear_file/gear_file.hpp"
-#include "model/gear_file/toml_source.hpp"
-#include "studies/study_file.hpp"
+#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/gear_file/gear_file.hpp"
+#include "strainwave/model/gear_file/toml_source.hpp"
+#include "strainwave/studies/file/study.hpp"
 
 #include <memory>
 

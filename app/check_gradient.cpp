@@ -1,9 +1,9 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
-#include "optimize/gradient_check.hpp"
-#include "studies/optimisation.hpp"
-#include "studies/study_kinds.hpp"
-#include "studies/study_gear.hpp"
+#include "strainwave/optimize/problem/gradient_check.hpp"
+#include "strainwave/studies/search/optimisation.hpp"
+#include "strainwave/studies/commands/kinds.hpp"
+#include "strainwave/studies/file/study_gear.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

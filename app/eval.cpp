@@ -1,8 +1,8 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
-#include "model/gear_file/gear_file.hpp"
-#include "studies/journal/whole_file.hpp"
-#include "studies/study_row.hpp"
+#include "strainwave/model/gear_file/gear_file.hpp"
+#include "strainwave/common/files/whole_file.hpp"
+#include "strainwave/studies/commands/reproduce.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,9 +1,9 @@
 #include "app/exit_codes.hpp"
 
 #include "app/output.hpp"
-#include "model/gear/fields.hpp"
-#include "model/gear/memory.hpp"
-#include "model/gear_file/file_error.hpp"
+#include "strainwave/model/gear/fields.hpp"
+#include "strainwave/common/core/memory.hpp"
+#include "strainwave/model/gear_file/file_error.hpp"
 
 #include <csignal>
 #include <cstdlib>

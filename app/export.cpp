@@ -1,14 +1,14 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
-#include "model/export/contact_file.hpp"
-#include "model/export/cup_deck.hpp"
-#include "model/export/cup_fields.hpp"
-#include "model/export/profile_csv.hpp"
-#include "model/export/profile_dxf.hpp"
-#include "model/export/replaced_file.hpp"
-#include "model/forward/forward.hpp"
-#include "model/gear_file/gear_file.hpp"
-#include "model/tooth/consistency.hpp"
+#include "strainwave/model/export/contact_file.hpp"
+#include "strainwave/model/export/cup_deck.hpp"
+#include "strainwave/model/export/cup_fields.hpp"
+#include "strainwave/model/export/profile_csv.hpp"
+#include "strainwave/model/export/profile_dxf.hpp"
+#include "strainwave/common/files/replaced_file.hpp"
+#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/gear_file/gear_file.hpp"
+#include "strainwave/model/tooth/consistency.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 // How far a study is, on stderr: one line that is redrawn on a terminal, a line every 30 s elsewhere.
 
-#include "optimize/monitor.hpp"
+#include "strainwave/optimize/methods/monitor.hpp"
 
 #include <chrono>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "studies/report.hpp"
+#include "strainwave/studies/report/report.hpp"
 #include "app/commands.hpp"
 #include "app/output.hpp"
 

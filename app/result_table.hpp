@@ -1,7 +1,7 @@
 #pragma once
 // A forward result for people: what `analyze` prints on a terminal without --json.
 
-#include "model/forward/result.hpp"
+#include "strainwave/model/results/result.hpp"
 
 #include <string>
 

@@ -2,8 +2,8 @@
 // What the sub-commands of `study` share.
 
 #include "app/exit_codes.hpp"
-#include "studies/journal/journal_format.hpp"
-#include "studies/sampled_run.hpp"
+#include "strainwave/common/rows/journal_format.hpp"
+#include "strainwave/studies/tables/run.hpp"
 
 #include <functional>
 #include <optional>

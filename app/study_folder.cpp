@@ -3,13 +3,13 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "app/study.hpp"
-#include "studies/journal/merge.hpp"
-#include "studies/optimisation.hpp"
-#include "studies/sampled_text.hpp"
-#include "studies/study_compare.hpp"
-#include "studies/study_status.hpp"
-#include "studies/study_kinds.hpp"
-#include "studies/study_gear.hpp"
+#include "strainwave/common/rows/merge.hpp"
+#include "strainwave/studies/search/optimisation.hpp"
+#include "strainwave/studies/tables/text.hpp"
+#include "strainwave/studies/results/compare.hpp"
+#include "strainwave/studies/commands/status.hpp"
+#include "strainwave/studies/commands/kinds.hpp"
+#include "strainwave/studies/file/study_gear.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

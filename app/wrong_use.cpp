@@ -1,6 +1,6 @@
 #include "app/wrong_use.hpp"
 
-#include "model/gear/nearest.hpp"
+#include "strainwave/common/core/nearest.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,10 +2,10 @@
 // at the gear's numbers: wave-generator curve (elastica included), checks, flanks, every tooth.
 //   window: the 28 teeth of -21 to 51 degrees;  all: the 70 teeth of one lobe.
 
-#include "model/kinematics/neutral_curve.hpp"
-#include "model/tooth/backlash.hpp"
-#include "model/tooth/backlash_gradient.hpp"
-#include "model/tooth/consistency.hpp"
+#include "strainwave/model/kinematics/neutral_curve.hpp"
+#include "strainwave/model/tooth/backlash.hpp"
+#include "strainwave/model/tooth/backlash_gradient.hpp"
+#include "strainwave/model/tooth/consistency.hpp"
 
 #include <benchmark/benchmark.h>
 

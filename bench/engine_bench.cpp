@@ -1,8 +1,8 @@
 // Studies without a model: what the engine, the journal and the designs cost per row.
-#include "studies/engine/run_rows.hpp"
-#include "studies/journal/merge.hpp"
-#include "studies/sampling/design.hpp"
-#include "studies/sampling/sources.hpp"
+#include "strainwave/common/rows/run_rows.hpp"
+#include "strainwave/common/rows/merge.hpp"
+#include "strainwave/common/sampling/design.hpp"
+#include "strainwave/common/sampling/sources.hpp"
 
 #include <benchmark/benchmark.h>
 #include <filesystem>

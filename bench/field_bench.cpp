@@ -1,9 +1,9 @@
 // Displacement fields of the whole cup under assembly-like loads: sector by sector, and by factorizing
 // the whole ring.
 
-#include "model/flexspline/cyclic_field.hpp"
-#include "model/flexspline/responses.hpp"
-#include "model/flexspline/ring.hpp"
+#include "strainwave/model/flexspline/cyclic_field.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
+#include "strainwave/model/flexspline/ring.hpp"
 
 #include <benchmark/benchmark.h>
 

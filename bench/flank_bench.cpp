@@ -3,9 +3,9 @@
 // docs/flank-contact.md, with the time of each (finite elements from the cache when it knows the cup: run twice). With the
 // environment's STRAINWAVE_FIGURES = FOLDER the figure is drawn there as well.
 
-#include "model/export/figure.hpp"
-#include "model/forward/forward.hpp"
-#include "model/gear_file/gear_file.hpp"
+#include "strainwave/model/export/figure.hpp"
+#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/gear_file/gear_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
 // The forward model on the seed gear, finite elements already solved: what one evaluation of a study costs.
 
-#include "model/flexspline/responses.hpp"
-#include "model/forward/flank_points.hpp"
-#include "model/forward/forward.hpp"
-#include "model/flexspline/response_request.hpp"
-#include "model/forward/gear_surface.hpp"
-#include "model/forward/load_cases.hpp"
-#include "model/forward/phase_model.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
+#include "strainwave/model/meshing/flank_points.hpp"
+#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/flexspline/response_request.hpp"
+#include "strainwave/model/meshing/gear_surface.hpp"
+#include "strainwave/model/loading/load_cases.hpp"
+#include "strainwave/model/loading/phase_model.hpp"
 
 #include <benchmark/benchmark.h>
 

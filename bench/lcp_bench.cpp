@@ -1,9 +1,9 @@
 // Contact solver: direct solves cold and warm, at a rotation and at a torque, and the whole event path.
 // "Cold": no closed set is known, M, q, r are in memory. Use --benchmark_repetitions and read the minimum.
 
-#include "model/contact/lcp_march.hpp"
-#include "model/contact/lcp_path.hpp"
-#include "tests/model/contact/lcp_problems.hpp"
+#include "strainwave/model/lcp/march.hpp"
+#include "strainwave/model/lcp/path.hpp"
+#include "tests/model/lcp/problems.hpp"
 
 #include <benchmark/benchmark.h>
 

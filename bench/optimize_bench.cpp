@@ -1,9 +1,9 @@
 // Optimisation: one evaluation of the seed gear at a design that is new, and what the layer above the model
 // costs. The cup comes from the cache on disk.
 
-#include "optimize/evaluation_store.hpp"
-#include "optimize/force_bound.hpp"
-#include "optimize/gear_evaluator.hpp"
+#include "strainwave/optimize/problem/evaluation_store.hpp"
+#include "strainwave/optimize/gear/force_bound.hpp"
+#include "strainwave/optimize/gear/gear_evaluator.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -3,9 +3,9 @@
 // the profile shift x2 is set anew so that the least backlash of the assembled cup stays 1 µm: rotations compare at the same
 // clearance. With STRAINWAVE_FIGURES = FOLDER the figure is drawn there as well.
 
-#include "model/export/figure.hpp"
-#include "model/forward/forward.hpp"
-#include "model/gear_file/gear_file.hpp"
+#include "strainwave/model/export/figure.hpp"
+#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/gear_file/gear_file.hpp"
 
 #include <fmt/format.h>
 

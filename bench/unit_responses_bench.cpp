@@ -4,11 +4,11 @@
 //
 // The peer: CalculiX on the same mesh, one load at a time. STRAINWAVE_BENCH_CCX=1 adds it (minutes).
 
-#include "model/flexspline/calculix.hpp"
-#include "model/flexspline/condensation.hpp"
-#include "model/flexspline/cyclic.hpp"
-#include "model/flexspline/response_store.hpp"
-#include "model/flexspline/responses.hpp"
+#include "strainwave/model/flexspline/calculix.hpp"
+#include "strainwave/model/flexspline/condensation.hpp"
+#include "strainwave/model/flexspline/cyclic.hpp"
+#include "strainwave/model/flexspline/response_store.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
 
 #include <chrono>
 #include <cmath>

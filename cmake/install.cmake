@@ -4,11 +4,8 @@ include(CMakePackageConfigHelpers)
 
 get_property(rooms GLOBAL PROPERTY STRAINWAVE_ROOMS)
 install(TARGETS ${rooms} EXPORT strainwaveTargets
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} FILE_SET HEADERS)
 install(TARGETS strainwave RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-foreach(folder model optimize studies)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION include/strainwave FILES_MATCHING PATTERN "*.hpp")
-endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/studies/gallery DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave)
 install(EXPORT strainwaveTargets NAMESPACE strainwave:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/strainwave)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/strainwaveConfig.cmake.in

@@ -1,46 +1,91 @@
-# A room is one folder with one concept and one library: strainwave_room(NAME SOURCES … USES … LIBRARIES … PRIVATE …).
-#   USES       rooms whose headers this room's public headers or sources include
-#   LIBRARIES  outside libraries seen in its public headers;  PRIVATE: only in its sources
+# A room is one folder with one concept and one library. The link lines below are the architecture: a room can include
+# another one only if it names it (docs/architecture.md, cmake/arrows.py).
+#
+#   strainwave_room(USES common/core model/gear  LIBRARIES …  PRIVATE …  PRIVATE_HEADERS …  EXCEPT …)
+#     USES             rooms whose headers this room includes
+#     LIBRARIES        outside libraries seen in its public headers;  PRIVATE: only in its sources
+#     PRIVATE_HEADERS  of this room only: included from nowhere else, not installed
+#     EXCEPT           sources that are not compiled here
+#
+# The room's sources and headers are those in its folder. Its target is strainwave_ and its path with _ for /.
+# Headers are included as "strainwave/<folder>/<name>.hpp".
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include/strainwave)
+foreach(folder common model optimize studies)
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${PROJECT_BINARY_DIR}/include/strainwave/${folder} SYMBOLIC)
+endforeach()
+
 add_library(strainwave_options INTERFACE)
 target_compile_features(strainwave_options INTERFACE cxx_std_20)
-target_include_directories(strainwave_options INTERFACE
-  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/strainwave>)
+# The layout of Eigen's types follows their alignment, which would else follow the instruction set.
+target_compile_definitions(strainwave_options INTERFACE EIGEN_MAX_ALIGN_BYTES=64)
+target_include_directories(strainwave_options INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>)
+# What only this build says: never exported.
+add_library(strainwave_build INTERFACE)
 if(STRAINWAVE_ARCH)
-  # Eigen's alignment follows the instruction set, so users of the headers need the same flag.
-  target_compile_options(strainwave_options INTERFACE -march=${STRAINWAVE_ARCH})
+  target_compile_options(strainwave_build INTERFACE -march=${STRAINWAVE_ARCH})
 endif()
-add_library(strainwave_warnings INTERFACE)
-# g++ 12's own AVX-512 header draws maybe-uninitialized (GCC bug 105593).
-target_compile_options(strainwave_warnings INTERFACE -Wall -Wextra -Wshadow -Wpedantic -Wno-maybe-uninitialized
-  $<$<BOOL:${STRAINWAVE_WERROR}>:-Werror>)
+# g++ 12's own AVX-512 headers draw (maybe-)uninitialized (GCC bug 105593), seen through Eigen's products.
+target_compile_options(strainwave_build INTERFACE -Wall -Wextra -Wshadow -Wpedantic -Wno-maybe-uninitialized
+  -Wno-uninitialized $<$<BOOL:${STRAINWAVE_WERROR}>:-Werror>)
+target_include_directories(strainwave_build INTERFACE ${PROJECT_SOURCE_DIR})
 set_property(GLOBAL PROPERTY STRAINWAVE_ROOMS strainwave_options)
 
-function(strainwave_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;LIBRARIES;PRIVATE" ${ARGN})
-  set(target strainwave_${name})
-  list(TRANSFORM ROOM_USES PREPEND strainwave_)
-  if(ROOM_SOURCES)
-    add_library(${target} STATIC ${ROOM_SOURCES})
-    target_link_libraries(${target} PUBLIC strainwave_options ${ROOM_USES} ${ROOM_LIBRARIES}
-      PRIVATE ${ROOM_PRIVATE} $<BUILD_INTERFACE:strainwave_warnings>)
-  else()
-    add_library(${target} INTERFACE)
-    target_link_libraries(${target} INTERFACE strainwave_options ${ROOM_USES} ${ROOM_LIBRARIES})
+include(cmake/precompiled.cmake)
+
+function(strainwave_target_of room result)
+  string(REPLACE "/" "_" name ${room})
+  set(${result} strainwave_${name} PARENT_SCOPE)
+endfunction()
+
+# Names of rooms become their targets.
+function(strainwave_targets_of result)
+  set(targets "")
+  foreach(room ${ARGN})
+    strainwave_target_of(${room} target)
+    list(APPEND targets ${target})
+  endforeach()
+  set(${result} ${targets} PARENT_SCOPE)
+endfunction()
+
+function(strainwave_room)
+  cmake_parse_arguments(ROOM "" "" "USES;LIBRARIES;PRIVATE;PRIVATE_HEADERS;EXCEPT" ${ARGN})
+  file(RELATIVE_PATH room ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  strainwave_target_of(${room} target)
+  strainwave_targets_of(uses ${ROOM_USES})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
+  foreach(name ${ROOM_EXCEPT})
+    list(REMOVE_ITEM sources ${CMAKE_CURRENT_SOURCE_DIR}/${name})
+  endforeach()
+  if(ROOM_PRIVATE_HEADERS)
+    list(REMOVE_ITEM headers ${ROOM_PRIVATE_HEADERS})
   endif()
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
-  add_library(strainwave::${name} ALIAS ${target})
+  list(TRANSFORM headers PREPEND ${PROJECT_BINARY_DIR}/include/strainwave/${room}/)
+  add_library(${target} STATIC ${sources})
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_BINARY_DIR}/include FILES ${headers})
+  target_link_libraries(${target} PUBLIC strainwave_options ${uses} ${ROOM_LIBRARIES}
+    PRIVATE ${ROOM_PRIVATE} $<BUILD_INTERFACE:strainwave_build>)
+  string(REPLACE "/" "_" export_name ${room})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name} POSITION_INDEPENDENT_CODE ON
+    VERIFY_INTERFACE_HEADER_SETS ON)
+  add_library(strainwave::${export_name} ALIAS ${target})
+  strainwave_precompile(${target} ${ROOM_LIBRARIES} ${ROOM_PRIVATE})
   set_property(GLOBAL APPEND PROPERTY STRAINWAVE_ROOMS ${target})
 endfunction()
 
-# strainwave_test(NAME SOURCES … USES … LIBRARIES …): one test program. Tests whose suite name ends in "Nightly" run
-# only under the label nightly (./run test --nightly).
+# strainwave_test(NAME USES … LIBRARIES … SOURCES …): one test program of the *_test.cpp in this folder, or of the named
+# sources. Tests whose suite name ends in "Nightly" run only under the label nightly (./run test --nightly).
 function(strainwave_test name)
   cmake_parse_arguments(T "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
-  list(TRANSFORM T_USES PREPEND strainwave_)
+  if(NOT T_SOURCES)
+    file(GLOB T_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  endif()
+  strainwave_targets_of(uses ${T_USES})
   add_executable(test_${name} ${T_SOURCES})
-  target_link_libraries(test_${name} PRIVATE ${T_USES} ${T_LIBRARIES} strainwave_warnings GTest::gtest GTest::gtest_main)
+  target_link_libraries(test_${name} PRIVATE ${uses} ${T_LIBRARIES} strainwave_build GTest::gtest GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE
     STRAINWAVE_TEST_REFERENCE="${PROJECT_SOURCE_DIR}/tests/reference" STRAINWAVE_SOURCE="${PROJECT_SOURCE_DIR}")
+  strainwave_precompile_test(test_${name} ${T_LIBRARIES})
   add_test(NAME ${name} COMMAND test_${name} --gtest_filter=-*Nightly.*)
   add_test(NAME ${name}.nightly COMMAND test_${name} --gtest_filter=*Nightly.*)
   set_tests_properties(${name}.nightly PROPERTIES LABELS nightly)

@@ -1,6 +1,6 @@
-#include "model/contact/assembly.hpp"
+#include "strainwave/model/contact/assembly.hpp"
 
-#include "model/contact/settled_contact.hpp"
+#include "strainwave/model/contact/settled_contact.hpp"
 
 #include <fmt/format.h>
 

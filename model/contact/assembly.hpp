@@ -10,10 +10,10 @@
 //
 // The wave generator pushes the wall outwards only; where the cone of the cup lifts the wall off, the force is zero.
 
-#include "model/contact/lcp.hpp"
-#include "model/contact/ring_compliance.hpp"
-#include "model/contact/wave_generator_surface.hpp"
-#include "model/gear/outcome.hpp"
+#include "strainwave/model/lcp/solver.hpp"
+#include "strainwave/model/contact/ring_compliance.hpp"
+#include "strainwave/model/contact/wave_generator_surface.hpp"
+#include "strainwave/common/core/outcome.hpp"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
-#include "model/contact/contact_tangent.hpp"
+#include "strainwave/model/contact/contact_tangent.hpp"
 
-#include "model/contact/lcp_factor.hpp"
+#include "strainwave/model/lcp/factor.hpp"
 
 #include <limits>
 

@@ -2,7 +2,7 @@
 // state on them is settled exactly (settled_contact.hpp). It is the solution when nothing that is closed pulls and nothing that
 // is open penetrates; else the next contact problem starts from it.
 
-#include "model/contact/settled_contact.hpp"
+#include "strainwave/model/contact/settled_contact.hpp"
 
 #include <algorithm>
 #include <cmath>

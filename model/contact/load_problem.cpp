@@ -1,4 +1,4 @@
-#include "model/contact/load_problem.hpp"
+#include "strainwave/model/contact/load_problem.hpp"
 
 #include <cmath>
 

@@ -17,7 +17,7 @@
 // the force on the tooth is −F n and the gap c cos α′ − n·u − arm θ on either flank; all above holds with d = −n·u
 // and the signed arm. A wedged gear has forces on both at no torque.
 
-#include "model/contact/assembly.hpp"
+#include "strainwave/model/contact/assembly.hpp"
 
 #include <vector>
 

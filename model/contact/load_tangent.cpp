@@ -1,4 +1,4 @@
-#include "model/contact/load_tangent.hpp"
+#include "strainwave/model/contact/load_tangent.hpp"
 
 namespace strainwave {
 

@@ -15,7 +15,7 @@
 // Moving or resizing the discs by small δ changes the gaps at u* and turns the normals: q + Σ amplitude · mode with the
 // modes δe, δe² (gaps alone) and δR; see DiscChange.
 
-#include "model/contact/load_problem.hpp"
+#include "strainwave/model/contact/load_problem.hpp"
 
 #include <array>
 #include <functional>

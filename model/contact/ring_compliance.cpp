@@ -1,4 +1,4 @@
-#include "model/contact/ring_compliance.hpp"
+#include "strainwave/model/contact/ring_compliance.hpp"
 
 #include <algorithm>
 #include <cassert>

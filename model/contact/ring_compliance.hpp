@@ -11,7 +11,7 @@
 // The cup is turned by the meshing phase s against the wave generator: tooth k stands at 2π(k + s)/N, station o of its
 // sector at 2π(k + o + s)/N.
 
-#include "model/flexspline/unit_responses.hpp"
+#include "strainwave/model/flexspline/unit_responses.hpp"
 
 #include <Eigen/Dense>
 

@@ -1,4 +1,4 @@
-#include "model/contact/settled_contact.hpp"
+#include "strainwave/model/contact/settled_contact.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 // closed set for all of them. The steps contract by force × curvature × compliance, some 1e-3, so about five of them end at
 // rounding: a hundredth of the work of as many contact problems, and gap and normals agree to 1e-14.
 
-#include "model/contact/load_problem.hpp"
+#include "strainwave/model/contact/load_problem.hpp"
 
 namespace strainwave {
 

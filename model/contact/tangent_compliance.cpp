@@ -1,4 +1,4 @@
-#include "model/contact/tangent_compliance.hpp"
+#include "strainwave/model/contact/tangent_compliance.hpp"
 
 #include <stdexcept>
 

@@ -8,7 +8,7 @@
 // bounds (optimize/force_bound.hpp) and rough estimates use it. Wall gaps are those of the LoadProblem (about the assembled
 // state). Without wall stations in the problem (fidelity linear) M_tt already holds the wall, and nothing changes.
 
-#include "model/contact/load_problem.hpp"
+#include "strainwave/model/contact/load_problem.hpp"
 
 namespace strainwave {
 

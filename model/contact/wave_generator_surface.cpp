@@ -1,4 +1,4 @@
-#include "model/contact/wave_generator_surface.hpp"
+#include "strainwave/model/contact/wave_generator_surface.hpp"
 
 #include <cmath>
 #include <utility>

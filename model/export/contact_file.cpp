@@ -1,6 +1,6 @@
-#include "model/export/contact_file.hpp"
+#include "strainwave/model/export/contact_file.hpp"
 
-#include "model/export/replaced_file.hpp"
+#include "strainwave/common/files/replaced_file.hpp"
 
 #include <fmt/format.h>
 #include <hdf5.h>

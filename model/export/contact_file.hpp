@@ -12,7 +12,7 @@
 //
 // Conventions and signs: model/contact/load_problem.hpp. Wall gaps are linearised about the assembled state.
 
-#include "model/forward/phase_problem.hpp"
+#include "strainwave/model/loading/phase_problem.hpp"
 
 #include <filesystem>
 #include <span>

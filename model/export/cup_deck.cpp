@@ -1,8 +1,8 @@
-#include "model/export/cup_deck.hpp"
+#include "strainwave/model/export/cup_deck.hpp"
 
-#include "model/flexspline/calculix.hpp"
-#include "model/flexspline/responses.hpp"
-#include "model/flexspline/response_request.hpp"
+#include "strainwave/model/flexspline/calculix.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
+#include "strainwave/model/flexspline/response_request.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-#include "model/export/cup_fields.hpp"
+#include "strainwave/model/export/cup_fields.hpp"
 
-#include "model/export/cup_grid.hpp"
-#include "model/flexspline/functionals.hpp"
+#include "strainwave/model/export/cup_grid.hpp"
+#include "strainwave/model/flexspline/functionals.hpp"
 
 #include <algorithm>
 #include <cmath>

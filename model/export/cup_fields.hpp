@@ -4,9 +4,9 @@
 // with (wall hats, flank hats, both lobes), so the fields' mean displacement at a contact is the contact's
 // own displacement: the largest difference is the field's certificate.
 
-#include "model/export/vtkhdf.hpp"
-#include "model/flexspline/cyclic_field.hpp"
-#include "model/forward/contact_forces.hpp"
+#include "strainwave/model/export/vtkhdf.hpp"
+#include "strainwave/model/flexspline/cyclic_field.hpp"
+#include "strainwave/model/loading/contact_forces.hpp"
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "model/export/cup_grid.hpp"
+#include "strainwave/model/export/cup_grid.hpp"
 
 #include <cmath>
 

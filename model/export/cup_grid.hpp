@@ -5,8 +5,8 @@
 // bottom (8 … 11), of the top (12 … 15) and of the upright edges (16 … 19, from corner 0 to 4 first): the
 // order of the C3D20R. (Other formats differ here: Gmsh, and Abaqus' own printed order of CalculiX's .frd.)
 
-#include "model/export/vtkhdf.hpp"
-#include "model/flexspline/mesh.hpp"
+#include "strainwave/model/export/vtkhdf.hpp"
+#include "strainwave/model/flexspline/mesh.hpp"
 
 #include <Eigen/Core>
 

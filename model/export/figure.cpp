@@ -1,6 +1,6 @@
-#include "model/export/figure.hpp"
+#include "strainwave/model/export/figure.hpp"
 
-#include "model/export/replaced_file.hpp"
+#include "strainwave/common/files/replaced_file.hpp"
 
 #include <fmt/format.h>
 

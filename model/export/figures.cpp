@@ -1,4 +1,4 @@
-#include "model/export/figures.hpp"
+#include "strainwave/model/export/figures.hpp"
 
 #include <fmt/format.h>
 

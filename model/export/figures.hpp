@@ -10,9 +10,9 @@
 // Maps over flank and face: flank_figures.hpp.
 // Figures whose numbers the result does not have are left out.
 
-#include "model/export/figure.hpp"
-#include "model/forward/contact_forces.hpp"
-#include "model/forward/result.hpp"
+#include "strainwave/model/export/figure.hpp"
+#include "strainwave/model/loading/contact_forces.hpp"
+#include "strainwave/model/results/result.hpp"
 
 #include <vector>
 

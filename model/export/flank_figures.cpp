@@ -1,4 +1,4 @@
-#include "model/export/flank_figures.hpp"
+#include "strainwave/model/export/flank_figures.hpp"
 
 #include <fmt/format.h>
 

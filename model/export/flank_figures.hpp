@@ -7,9 +7,9 @@
 //   backlash-map   initial backlash over φ and face of the assembled cup (gaps = "assembled")
 // Every map is drawn as the rectangles that its numbers stand for: a tooth's pitch times a slice's share of the face.
 
-#include "model/export/figure.hpp"
-#include "model/forward/result.hpp"
-#include "model/gear/gear.hpp"
+#include "strainwave/model/export/figure.hpp"
+#include "strainwave/model/results/result.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 #include <vector>
 

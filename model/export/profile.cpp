@@ -1,8 +1,8 @@
-#include "model/export/profile.hpp"
+#include "strainwave/model/export/profile.hpp"
 
-#include "model/kinematics/neutral_curve.hpp"
-#include "model/tooth/consistency.hpp"
-#include "model/tooth/profile.hpp"
+#include "strainwave/model/kinematics/neutral_curve.hpp"
+#include "strainwave/model/tooth/consistency.hpp"
+#include "strainwave/model/tooth/profile.hpp"
 
 #include <fmt/format.h>
 

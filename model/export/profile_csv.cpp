@@ -1,4 +1,4 @@
-#include "model/export/profile_csv.hpp"
+#include "strainwave/model/export/profile_csv.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 //   outline,tooth,phi_deg,part,flank_coordinate,radius_mm,x_mm,y_mm,removal_um
 // flank_coordinate and removal_um are empty where there is no flank.
 
-#include "model/export/profile.hpp"
+#include "strainwave/model/export/profile.hpp"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "model/export/profile_dxf.hpp"
+#include "strainwave/model/export/profile_dxf.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 // outline. DXF has no units in release 12; $INSUNITS = 4 (mm) is written all the same, because later programs
 // read it. Source: Autodesk, DXF Reference (R12), groups of HEADER, TABLES, POLYLINE.
 
-#include "model/export/profile.hpp"
+#include "strainwave/model/export/profile.hpp"
 
 #include <string>
 

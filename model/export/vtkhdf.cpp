@@ -1,6 +1,6 @@
-#include "model/export/vtkhdf.hpp"
+#include "strainwave/model/export/vtkhdf.hpp"
 
-#include "model/export/replaced_file.hpp"
+#include "strainwave/common/files/replaced_file.hpp"
 
 #include <cassert>
 #include <cerrno>

@@ -1,4 +1,4 @@
-#include "model/flexspline/calculix.hpp"
+#include "strainwave/model/flexspline/calculix.hpp"
 
 #include <cmath>
 #include <istream>

@@ -7,7 +7,7 @@
 // written with 12 significant digits and what is below 1e-14 of the largest becomes 0. Displacements are
 // printed with seven digits.
 
-#include "model/flexspline/ring.hpp"
+#include "strainwave/model/flexspline/ring.hpp"
 
 #include <iosfwd>
 #include <string>

@@ -1,8 +1,8 @@
-#include "model/flexspline/condensation.hpp"
+#include "strainwave/model/flexspline/condensation.hpp"
 
-#include "model/flexspline/blas.hpp"
-#include "model/flexspline/element.hpp"
-#include "model/flexspline/sparse.hpp"
+#include "strainwave/model/flexspline/blas.hpp"
+#include "strainwave/model/flexspline/element.hpp"
+#include "strainwave/model/flexspline/sparse.hpp"
 
 #include <algorithm>
 #include <array>

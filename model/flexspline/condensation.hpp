@@ -16,8 +16,8 @@
 // by the square of u's error; it is found as fᵀu + uᵀr with the residual r = f − K u in twice the working
 // precision.
 
-#include "model/flexspline/functionals.hpp"
-#include "model/flexspline/mesh.hpp"
+#include "strainwave/model/flexspline/functionals.hpp"
+#include "strainwave/model/flexspline/mesh.hpp"
 
 #include <memory>
 #include <vector>

@@ -1,7 +1,7 @@
-#include "model/flexspline/cyclic.hpp"
+#include "strainwave/model/flexspline/cyclic.hpp"
 
-#include "model/flexspline/blas.hpp"
-#include "model/flexspline/harmonics.hpp"
+#include "strainwave/model/flexspline/blas.hpp"
+#include "strainwave/model/flexspline/harmonics.hpp"
 
 #include <algorithm>
 #include <atomic>

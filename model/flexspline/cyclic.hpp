@@ -19,8 +19,8 @@
 // lowest harmonics, in which the cup hardly resists, get G_h from the refined energy of condensation.hpp
 // instead of Yᴴ Y.
 
-#include "model/flexspline/functionals.hpp"
-#include "model/flexspline/mesh.hpp"
+#include "strainwave/model/flexspline/functionals.hpp"
+#include "strainwave/model/flexspline/mesh.hpp"
 
 #include <cstddef>
 #include <vector>

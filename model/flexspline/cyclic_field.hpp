@@ -14,8 +14,8 @@
 //
 // Unlike the factor of the whole ring (ring.hpp, the tests' reference) this needs the memory of one sector.
 
-#include "model/flexspline/functionals.hpp"
-#include "model/flexspline/mesh.hpp"
+#include "strainwave/model/flexspline/functionals.hpp"
+#include "strainwave/model/flexspline/mesh.hpp"
 
 #include <vector>
 

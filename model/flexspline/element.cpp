@@ -1,6 +1,6 @@
-#include "model/flexspline/element.hpp"
+#include "strainwave/model/flexspline/element.hpp"
 
-#include "model/flexspline/mesh.hpp"
+#include "strainwave/model/flexspline/mesh.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 // locking of thin walls; the six zero-energy patterns of a lone element cannot spread through a supported
 // mesh.
 
-#include "model/gear/gear.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 #include <array>
 

@@ -1,6 +1,6 @@
-#include "model/flexspline/functionals.hpp"
+#include "strainwave/model/flexspline/functionals.hpp"
 
-#include "model/flexspline/element.hpp"
+#include "strainwave/model/flexspline/element.hpp"
 
 #include <algorithm>
 #include <array>

@@ -10,8 +10,8 @@
 //
 // All weights are components in the cylindrical frame of each node's own angle.
 
-#include "model/flexspline/mesh.hpp"
-#include "model/flexspline/unit_responses.hpp"
+#include "strainwave/model/flexspline/mesh.hpp"
+#include "strainwave/model/flexspline/unit_responses.hpp"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
-#include "model/flexspline/harmonics.hpp"
+#include "strainwave/model/flexspline/harmonics.hpp"
 
-#include "model/flexspline/blas.hpp"
-#include "model/flexspline/sparse.hpp"
+#include "strainwave/model/flexspline/blas.hpp"
+#include "strainwave/model/flexspline/sparse.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,9 @@
 // Complex columns are kept as real matrices: real parts of all functionals first, imaginary parts behind
 // them.
 
-#include "model/flexspline/condensation.hpp"
-#include "model/flexspline/functionals.hpp"
-#include "model/flexspline/mesh.hpp"
+#include "strainwave/model/flexspline/condensation.hpp"
+#include "strainwave/model/flexspline/functionals.hpp"
+#include "strainwave/model/flexspline/mesh.hpp"
 
 #include <memory>
 #include <vector>

@@ -1,7 +1,7 @@
-#include "model/flexspline/mesh.hpp"
+#include "strainwave/model/flexspline/mesh.hpp"
 
-#include "model/flexspline/element.hpp"
-#include "model/flexspline/tooth_outline.hpp"
+#include "strainwave/model/flexspline/element.hpp"
+#include "strainwave/model/flexspline/tooth_outline.hpp"
 
 #include <algorithm>
 #include <cmath>

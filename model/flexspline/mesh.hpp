@@ -18,8 +18,8 @@
 // mirror image in φ → −φ, which the cyclic solver uses. Where wall and rim differ in thickness, one extra row
 // of elements behind the face makes the step at 45°.
 
-#include "model/gear/gear.hpp"
-#include "model/gear/outcome.hpp"
+#include "strainwave/model/gear/gear.hpp"
+#include "strainwave/common/core/outcome.hpp"
 
 #include <array>
 #include <cstddef>

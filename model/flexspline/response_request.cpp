@@ -1,4 +1,4 @@
-#include "model/flexspline/response_request.hpp"
+#include "strainwave/model/flexspline/response_request.hpp"
 
 #include <algorithm>
 

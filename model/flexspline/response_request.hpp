@@ -2,8 +2,8 @@
 // What the finite elements read of a gear: cup, material, mesh and where the flank is loaded. Nothing of the wave generator,
 // so no change of it makes them run again.
 
-#include "model/flexspline/responses.hpp"
-#include "model/gear/gear.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 namespace strainwave {
 

@@ -1,4 +1,4 @@
-#include "model/flexspline/response_store.hpp"
+#include "strainwave/model/flexspline/response_store.hpp"
 
 #include <atomic>
 #include <bit>

@@ -7,7 +7,7 @@
 // be written, are a warning and the responses are computed: the store never changes a result. Format: HDF5,
 // with a checksum of the numbers.
 
-#include "model/flexspline/responses.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
 
 #include <cstdint>
 #include <filesystem>

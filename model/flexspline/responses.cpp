@@ -1,8 +1,8 @@
-#include "model/flexspline/responses.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
 
-#include "model/flexspline/cyclic.hpp"
-#include "model/gear/memory.hpp"
-#include "model/flexspline/sparse.hpp"
+#include "strainwave/model/flexspline/cyclic.hpp"
+#include "strainwave/common/core/memory.hpp"
+#include "strainwave/model/flexspline/sparse.hpp"
 
 #include <algorithm>
 #include <cmath>

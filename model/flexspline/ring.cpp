@@ -1,6 +1,6 @@
-#include "model/flexspline/ring.hpp"
+#include "strainwave/model/flexspline/ring.hpp"
 
-#include "model/flexspline/element.hpp"
+#include "strainwave/model/flexspline/element.hpp"
 
 #include <algorithm>
 #include <stdexcept>

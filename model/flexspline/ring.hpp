@@ -4,9 +4,9 @@
 // The full solution is the slow and simple reference of the cyclic one, serves bodies that are no ring
 // (beams, quarter rings) in tests, and gives the displacements of a whole cup under any loads.
 
-#include "model/flexspline/functionals.hpp"
-#include "model/flexspline/mesh.hpp"
-#include "model/flexspline/sparse.hpp"
+#include "strainwave/model/flexspline/functionals.hpp"
+#include "strainwave/model/flexspline/mesh.hpp"
+#include "strainwave/model/flexspline/sparse.hpp"
 
 #include <memory>
 #include <vector>

@@ -1,7 +1,7 @@
-#include "model/flexspline/sparse.hpp"
+#include "strainwave/model/flexspline/sparse.hpp"
 
-#include "model/flexspline/blas.hpp"
-#include "model/gear/memory.hpp"
+#include "strainwave/model/flexspline/blas.hpp"
+#include "strainwave/common/core/memory.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "model/flexspline/tooth_outline.hpp"
+#include "strainwave/model/flexspline/tooth_outline.hpp"
 
 #include <cmath>
 #include <numbers>

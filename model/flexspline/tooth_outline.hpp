@@ -9,7 +9,7 @@
 //   θ       = (π/2 + 2 x1 tan α0)/z1, half the tooth's angle on the pitch circle
 // Below the base circle r1 cos α0 there is no involute; the flank goes on radially.
 
-#include "model/gear/gear.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 namespace strainwave {
 

@@ -2,14 +2,14 @@
 // One analysis on its way through the stages of the forward model, and what analyses share. Of forward.cpp and
 // analysis_cup.cpp only; others use forward.hpp.
 
-#include "model/forward/contact_forces.hpp"
-#include "model/forward/flank_points.hpp"
-#include "model/forward/forward.hpp"
-#include "model/forward/gradient.hpp"
-#include "model/forward/load_cases.hpp"
-#include "model/forward/phase_problem.hpp"
-#include "model/forward/stage_memory.hpp"
-#include "model/tooth/backlash.hpp"
+#include "strainwave/model/loading/contact_forces.hpp"
+#include "strainwave/model/meshing/flank_points.hpp"
+#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/forward/gradient.hpp"
+#include "strainwave/model/loading/load_cases.hpp"
+#include "strainwave/model/loading/phase_problem.hpp"
+#include "strainwave/common/threads/stage_memory.hpp"
+#include "strainwave/model/tooth/backlash.hpp"
 
 #include <chrono>
 #include <map>

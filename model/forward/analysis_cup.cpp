@@ -1,10 +1,10 @@
 // The stages of an analysis that know the cup: finite elements, assembly on the wave generator, compliance of the teeth.
 
-#include "model/forward/analysis.hpp"
+#include "strainwave/model/forward/analysis.hpp"
 
-#include "model/flexspline/response_store.hpp"
-#include "model/flexspline/response_request.hpp"
-#include "model/forward/gear_surface.hpp"
+#include "strainwave/model/flexspline/response_store.hpp"
+#include "strainwave/model/flexspline/response_request.hpp"
+#include "strainwave/model/meshing/gear_surface.hpp"
 
 #include <fmt/format.h>
 

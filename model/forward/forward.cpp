@@ -1,11 +1,11 @@
-#include "model/forward/forward.hpp"
+#include "strainwave/model/forward/forward.hpp"
 
-#include "model/forward/analysis.hpp"
-#include "model/flexspline/response_request.hpp"
-#include "model/forward/inputs.hpp"
-#include "model/gear/fields.hpp"
-#include "model/kinematics/rim_strain.hpp"
-#include "model/tooth/consistency.hpp"
+#include "strainwave/model/forward/analysis.hpp"
+#include "strainwave/model/flexspline/response_request.hpp"
+#include "strainwave/model/forward/inputs.hpp"
+#include "strainwave/model/gear/fields.hpp"
+#include "strainwave/model/kinematics/rim_strain.hpp"
+#include "strainwave/model/tooth/consistency.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 // One ForwardModel may be used by several threads; analyses share what they have computed. Results depend on the gear
 // alone, never on what was analysed before.
 
-#include "model/forward/result.hpp"
+#include "strainwave/model/results/result.hpp"
 
 #include <filesystem>
 #include <memory>

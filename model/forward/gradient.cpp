@@ -1,10 +1,10 @@
-#include "model/forward/gradient.hpp"
+#include "strainwave/model/forward/gradient.hpp"
 
-#include "model/forward/analysis.hpp"
-#include "model/forward/gradient_phase.hpp"
-#include "model/forward/pressure.hpp"
-#include "model/gear/fields.hpp"
-#include "model/kinematics/rim_strain.hpp"
+#include "strainwave/model/forward/analysis.hpp"
+#include "strainwave/model/slopes/gradient_phase.hpp"
+#include "strainwave/model/meshing/pressure.hpp"
+#include "strainwave/model/gear/fields.hpp"
+#include "strainwave/model/kinematics/rim_strain.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -9,8 +9,8 @@
 //
 // Everything is per unit of the file's key: N per µm, rad per mm.
 
-#include "model/forward/forward_gradient.hpp"
-#include "model/gear/gear.hpp"
+#include "strainwave/model/results/forward_gradient.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 #include <memory>
 #include <span>

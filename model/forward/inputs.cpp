@@ -1,7 +1,7 @@
-#include "model/forward/inputs.hpp"
+#include "strainwave/model/forward/inputs.hpp"
 
-#include "model/flexspline/response_request.hpp"
-#include "model/forward/forward.hpp"
+#include "strainwave/model/flexspline/response_request.hpp"
+#include "strainwave/model/forward/forward.hpp"
 
 #include <fmt/format.h>
 

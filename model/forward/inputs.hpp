@@ -1,8 +1,8 @@
 #pragma once
 // What each stage of the forward model reads of a gear, and nothing else: keys and inputs made from the file's numbers.
 
-#include "model/forward/stage_memory.hpp"
-#include "model/gear/gear.hpp"
+#include "strainwave/common/threads/stage_memory.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 namespace strainwave {
 

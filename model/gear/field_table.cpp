@@ -1,7 +1,7 @@
 // The rows of the table. Ranges are those of single numbers; limits without a physical reason are round
 // numbers far outside of any gear, so that a slip of units (metres, pascals) is caught.
 
-#include "model/gear/fields.hpp"
+#include "strainwave/model/gear/fields.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-#include "model/gear/fields.hpp"
+#include "strainwave/model/gear/fields.hpp"
 
-#include "model/gear/nearest.hpp"
+#include "strainwave/common/core/nearest.hpp"
 
 #include <algorithm>
 #include <array>

@@ -10,7 +10,7 @@
 // A default is what a default-constructed Gear holds. A range says which values make sense for one key alone
 // (thickness above zero); whether several numbers fit together is not asked here.
 
-#include "model/gear/gear.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 #include <cstddef>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "model/gear/gear.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 namespace strainwave {
 

@@ -1,4 +1,4 @@
-#include "model/gear_file/field_reader.hpp"
+#include "strainwave/model/gear_file/field_reader.hpp"
 
 #include <fmt/format.h>
 

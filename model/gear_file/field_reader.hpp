@@ -2,8 +2,8 @@
 // From a node of a TOML file to a checked value of a gear's field. Faults are collected, so that a user sees
 // all of them at once; a value with a fault is not written.
 
-#include "model/gear/fields.hpp"
-#include "model/gear_file/toml_source.hpp"
+#include "strainwave/model/gear/fields.hpp"
+#include "strainwave/model/gear_file/toml_source.hpp"
 
 #include <filesystem>
 #include <optional>

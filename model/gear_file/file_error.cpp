@@ -1,4 +1,4 @@
-#include "model/gear_file/file_error.hpp"
+#include "strainwave/model/gear_file/file_error.hpp"
 
 #include <algorithm>
 

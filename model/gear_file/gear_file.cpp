@@ -1,7 +1,7 @@
-#include "model/gear_file/gear_file.hpp"
+#include "strainwave/model/gear_file/gear_file.hpp"
 
-#include "model/gear/nearest.hpp"
-#include "model/gear_file/field_reader.hpp"
+#include "strainwave/common/core/nearest.hpp"
+#include "strainwave/model/gear_file/field_reader.hpp"
 
 #include <fmt/format.h>
 

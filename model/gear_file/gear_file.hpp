@@ -5,8 +5,8 @@
 //     GearDocument document = load_gear("seed.toml");     // throws FileError with all faults of the file
 //     std::string complete = write_gear(document.gear);   // every default filled in; reads back bit for bit
 
-#include "model/gear/gear.hpp"
-#include "model/gear_file/file_error.hpp"
+#include "strainwave/model/gear/gear.hpp"
+#include "strainwave/model/gear_file/file_error.hpp"
 
 #include <map>
 #include <string>

@@ -1,6 +1,6 @@
-#include "model/gear_file/gear_schema.hpp"
+#include "strainwave/model/gear_file/gear_schema.hpp"
 
-#include "model/gear/fields.hpp"
+#include "strainwave/model/gear/fields.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

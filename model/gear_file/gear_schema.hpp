@@ -2,7 +2,7 @@
 // Descriptions of the gear file that are made from the table of fields: a JSON Schema for editors and other
 // programs, and the reference page docs/gear-file.md for people.
 
-#include "model/gear/fields.hpp"
+#include "strainwave/model/gear/fields.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

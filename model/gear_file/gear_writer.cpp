@@ -1,8 +1,8 @@
 // write_gear(): the complete file, one commented line per key.
 
-#include "model/gear/fields.hpp"
-#include "model/gear_file/gear_file.hpp"
-#include "model/gear_file/toml_writer.hpp"
+#include "strainwave/model/gear/fields.hpp"
+#include "strainwave/model/gear_file/gear_file.hpp"
+#include "strainwave/model/gear_file/toml_writer.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "model/gear_file/syntax_sentence.hpp"
+#include "strainwave/model/gear_file/syntax_sentence.hpp"
 
 #include <fmt/format.h>
 

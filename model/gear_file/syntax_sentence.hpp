@@ -3,7 +3,7 @@
 // (decimal comma, text without quotes, a unit after the number, a foreign comment sign) are recognised by the
 // line itself.
 
-#include "model/gear_file/file_error.hpp"
+#include "strainwave/model/gear_file/file_error.hpp"
 
 #include <string>
 #include <string_view>

@@ -1,7 +1,7 @@
-#include "model/gear_file/toml_source.hpp"
+#include "strainwave/model/gear_file/toml_source.hpp"
 
-#include "model/gear/nearest.hpp"
-#include "model/gear_file/syntax_sentence.hpp"
+#include "strainwave/common/core/nearest.hpp"
+#include "strainwave/model/gear_file/syntax_sentence.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // TOML text in, toml++ table out, with its errors turned into FileErrors. For rooms that read files;
 // everybody else includes gear_file.hpp, which knows no parser.
 
-#include "model/gear_file/file_error.hpp"
+#include "strainwave/model/gear_file/file_error.hpp"
 
 #include <toml++/toml.h>
 

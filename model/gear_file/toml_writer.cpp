@@ -1,4 +1,4 @@
-#include "model/gear_file/toml_writer.hpp"
+#include "strainwave/model/gear_file/toml_writer.hpp"
 
 #include <fmt/format.h>
 

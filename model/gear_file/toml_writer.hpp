@@ -1,7 +1,7 @@
 #pragma once
 // Values and lines of TOML files that the program writes.
 
-#include "model/gear/fields.hpp"
+#include "strainwave/model/gear/fields.hpp"
 
 #include <string>
 #include <string_view>

@@ -1,4 +1,4 @@
-#include "model/kinematics/chebyshev.hpp"
+#include "strainwave/model/kinematics/chebyshev.hpp"
 
 #include <cmath>
 #include <map>

@@ -1,4 +1,4 @@
-#include "model/kinematics/collocation.hpp"
+#include "strainwave/model/kinematics/collocation.hpp"
 
 #include <Eigen/LU>
 

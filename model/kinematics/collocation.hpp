@@ -10,8 +10,8 @@
 // with respect to r_m, u0 and the given number (implicit differentiation).
 // Source of the method: L. Greengard, SIAM J. Numer. Anal. 28 (1991) 1071, spectral integration.
 
-#include "model/kinematics/chebyshev.hpp"
-#include "model/kinematics/shooting.hpp"
+#include "strainwave/model/kinematics/chebyshev.hpp"
+#include "strainwave/model/kinematics/shooting.hpp"
 
 #include <Eigen/Core>
 

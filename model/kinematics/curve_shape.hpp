@@ -2,8 +2,8 @@
 // What every shape answers for the first quarter; NeutralCurve adds evenness and period. Internal to this
 // room.
 
-#include "model/gear/outcome.hpp"
-#include "model/kinematics/neutral_curve.hpp"
+#include "strainwave/common/core/outcome.hpp"
+#include "strainwave/model/kinematics/neutral_curve.hpp"
 
 namespace strainwave {
 

@@ -12,7 +12,7 @@
 // Cosine: u0 cos 2 phi.
 // Ellipse: semi-axes r_m + u0 and b; u = radius at the polar angle phi, less r_m.
 
-#include "model/kinematics/derivative.hpp"
+#include "strainwave/model/kinematics/derivative.hpp"
 
 #include <numbers>
 

@@ -5,10 +5,10 @@
 // derivatives, so that a pose is one sum. Seed gear: lift-off at 50.342648 degrees about the disc's centre,
 // N/EI = -0.00210823 mm^-2.
 
-#include "model/kinematics/collocation.hpp"
-#include "model/kinematics/curve_shape.hpp"
-#include "model/kinematics/derivative.hpp"
-#include "model/kinematics/wrap.hpp"
+#include "strainwave/model/kinematics/collocation.hpp"
+#include "strainwave/model/kinematics/curve_shape.hpp"
+#include "strainwave/model/kinematics/derivative.hpp"
+#include "strainwave/model/kinematics/wrap.hpp"
 
 #include <fmt/format.h>
 

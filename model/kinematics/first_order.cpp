@@ -1,8 +1,8 @@
 // The first-order shapes and the rigid cams: two_disc, four_force, ellipse, cosine, table.
 
-#include "model/kinematics/polar_curve.hpp"
-#include "model/kinematics/table.hpp"
-#include "model/kinematics/wrap.hpp"
+#include "strainwave/model/kinematics/polar_curve.hpp"
+#include "strainwave/model/kinematics/table.hpp"
+#include "strainwave/model/kinematics/wrap.hpp"
 
 #include <fmt/format.h>
 

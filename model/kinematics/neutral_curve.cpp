@@ -1,6 +1,6 @@
-#include "model/kinematics/neutral_curve.hpp"
+#include "strainwave/model/kinematics/neutral_curve.hpp"
 
-#include "model/kinematics/curve_shape.hpp"
+#include "strainwave/model/kinematics/curve_shape.hpp"
 
 #include <fmt/format.h>
 

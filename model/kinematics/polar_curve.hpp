@@ -6,9 +6,9 @@
 // by Newton steps. A curve longer than the circle ends before phi1 = pi/2, a shorter one runs on as its own
 // mirror image.
 
-#include "model/kinematics/chebyshev.hpp"
-#include "model/kinematics/curve_shape.hpp"
-#include "model/kinematics/displacement.hpp"
+#include "strainwave/model/kinematics/chebyshev.hpp"
+#include "strainwave/model/kinematics/curve_shape.hpp"
+#include "strainwave/model/kinematics/displacement.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "model/kinematics/rim_strain.hpp"
+#include "strainwave/model/kinematics/rim_strain.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 // Example: u0 cos 2φ to first order, Δκ = 3 u0/r_m²: seed gear (t = 0.3, u0 = 0.2, r_m = 14.006) 4.6e-4. On the two discs κ is
 // 1/R. Teeth stiffen the rim and concentrate strain in the tooth spaces; neither is part of this number.
 
-#include "model/kinematics/neutral_curve.hpp"
+#include "strainwave/model/kinematics/neutral_curve.hpp"
 
 namespace strainwave {
 

@@ -1,4 +1,4 @@
-#include "model/kinematics/shooting.hpp"
+#include "strainwave/model/kinematics/shooting.hpp"
 
 #include <cvodes/cvodes.h>
 #include <fmt/format.h>

@@ -8,7 +8,7 @@
 //     axis    x = 0,  psi = pi;  arc length pi r_m/2
 // Integration starts at the lift-off because the slope of the curvature jumps there.
 
-#include "model/gear/outcome.hpp"
+#include "strainwave/common/core/outcome.hpp"
 
 namespace strainwave {
 

@@ -1,6 +1,6 @@
-#include "model/kinematics/table.hpp"
+#include "strainwave/model/kinematics/table.hpp"
 
-#include "model/gear/fields.hpp"
+#include "strainwave/model/gear/fields.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 // (ascending, first 0, last 90) and radial displacement of the neutral line in mm; '#' starts a comment.
 // Between the rows an even, pi-periodic cubic spline: slope zero at both axes, u'' continuous.
 
-#include "model/kinematics/displacement.hpp"
+#include "strainwave/model/kinematics/displacement.hpp"
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "model/kinematics/wrap.hpp"
+#include "strainwave/model/kinematics/wrap.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
-#include "model/tooth/backlash.hpp"
+#include "strainwave/model/tooth/backlash.hpp"
 
-#include "model/tooth/consistency.hpp"
-#include "model/tooth/gear_numbers.hpp"
-#include "model/tooth/prepared_pair.hpp"
+#include "strainwave/model/tooth/consistency.hpp"
+#include "strainwave/model/tooth/gear_numbers.hpp"
+#include "strainwave/model/tooth/prepared_pair.hpp"
 
 #include <fmt/format.h>
 

@@ -11,9 +11,9 @@
 // 0); derivatives are per unit of the file's key (mm, degree, um, 1). Each is the change of that key alone:
 // flexspline.neutral_radius_mm moves the neutral line, not the root circle.
 
-#include "model/gear/gear.hpp"
-#include "model/kinematics/neutral_curve.hpp"
-#include "model/tooth/backlash.hpp"
+#include "strainwave/model/gear/gear.hpp"
+#include "strainwave/model/kinematics/neutral_curve.hpp"
+#include "strainwave/model/tooth/backlash.hpp"
 
 #include <span>
 #include <string>

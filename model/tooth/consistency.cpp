@@ -1,6 +1,6 @@
-#include "model/tooth/consistency.hpp"
+#include "strainwave/model/tooth/consistency.hpp"
 
-#include "model/tooth/flank_modification.hpp"
+#include "strainwave/model/tooth/flank_modification.hpp"
 
 #include <fmt/format.h>
 

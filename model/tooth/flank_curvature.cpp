@@ -1,6 +1,6 @@
-#include "model/tooth/flank_curvature.hpp"
+#include "strainwave/model/tooth/flank_curvature.hpp"
 
-#include "model/tooth/prepared_pair.hpp"
+#include "strainwave/model/tooth/prepared_pair.hpp"
 
 #include <algorithm>
 #include <cmath>

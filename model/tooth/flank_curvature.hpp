@@ -10,8 +10,8 @@
 // the curvature of their contact is the difference. m'' is taken as the slope of m' over 0.4 % of the flank; where the
 // modification has a break there (the start of a relief, a knot) only the side on which the point lies counts.
 
-#include "model/tooth/backlash.hpp"
-#include "model/tooth/flank_modification.hpp"
+#include "strainwave/model/tooth/backlash.hpp"
+#include "strainwave/model/tooth/flank_modification.hpp"
 
 namespace strainwave {
 

@@ -14,11 +14,11 @@
 //     l2 = sqrt(rho_p^2 - r_b2^2) = r_b2 t2 + m2(t2)
 //     gap(t) = rho_p [tau + sigma2 - t2 + arctan(l2/r_b2) - arg Q(t)]
 
-#include "model/gear/gear.hpp"
-#include "model/kinematics/derivative.hpp"
-#include "model/kinematics/neutral_curve.hpp"
-#include "model/tooth/backlash.hpp"
-#include "model/tooth/removal.hpp"
+#include "strainwave/model/gear/gear.hpp"
+#include "strainwave/model/kinematics/derivative.hpp"
+#include "strainwave/model/kinematics/neutral_curve.hpp"
+#include "strainwave/model/tooth/backlash.hpp"
+#include "strainwave/model/tooth/removal.hpp"
 
 #include <numbers>
 #include <type_traits>

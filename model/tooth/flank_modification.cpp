@@ -1,6 +1,6 @@
-#include "model/tooth/flank_modification.hpp"
+#include "strainwave/model/tooth/flank_modification.hpp"
 
-#include "model/tooth/gear_numbers.hpp"
+#include "strainwave/model/tooth/gear_numbers.hpp"
 
 #include <boost/math/tools/minima.hpp>
 #include <fmt/format.h>

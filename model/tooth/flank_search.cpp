@@ -1,6 +1,6 @@
 // The least gap of one tooth: from end to end of the shared flank, through every break of the modifications.
 
-#include "model/tooth/prepared_pair.hpp"
+#include "strainwave/model/tooth/prepared_pair.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>
 

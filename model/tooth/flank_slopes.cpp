@@ -1,7 +1,7 @@
-#include "model/tooth/flank_slopes.hpp"
+#include "strainwave/model/tooth/flank_slopes.hpp"
 
-#include "model/tooth/gear_numbers.hpp"
-#include "model/tooth/prepared_pair.hpp"
+#include "strainwave/model/tooth/gear_numbers.hpp"
+#include "strainwave/model/tooth/prepared_pair.hpp"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 //
 // backlash_gradient.hpp answers for all teeth of a table; this class for the few contacts that carry load.
 
-#include "model/tooth/backlash.hpp"
+#include "strainwave/model/tooth/backlash.hpp"
 
 #include <Eigen/Core>
 

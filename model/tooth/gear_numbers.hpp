@@ -2,7 +2,7 @@
 // The gear's continuous numbers that the backlash depends on, for any scalar, addressed by gear-file path.
 // Internal.
 
-#include "model/tooth/flank_gap.hpp"
+#include "strainwave/model/tooth/flank_gap.hpp"
 
 namespace strainwave {
 

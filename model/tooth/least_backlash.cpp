@@ -1,5 +1,5 @@
-#include "model/tooth/gear_numbers.hpp"
-#include "model/tooth/prepared_pair.hpp"
+#include "strainwave/model/tooth/gear_numbers.hpp"
+#include "strainwave/model/tooth/prepared_pair.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 // What FlankPair keeps: flanks and their breaks, known before any pose. Internal to this room.
 
-#include "model/tooth/flank_gap.hpp"
+#include "strainwave/model/tooth/flank_gap.hpp"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
-#include "model/tooth/profile.hpp"
+#include "strainwave/model/tooth/profile.hpp"
 
-#include "model/tooth/prepared_pair.hpp"
+#include "strainwave/model/tooth/prepared_pair.hpp"
 
 #include <algorithm>
 #include <cassert>

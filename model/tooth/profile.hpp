@@ -4,9 +4,9 @@
 // Polar points count their angle from the tooth's (space's) centre line towards the drive flank, h runs from
 // 0 to 1 (flexspline: root to tip; circular spline: tip to root). The coast flank is the mirror image.
 
-#include "model/kinematics/neutral_curve.hpp"
-#include "model/tooth/backlash.hpp"
-#include "model/tooth/flank_modification.hpp"
+#include "strainwave/model/kinematics/neutral_curve.hpp"
+#include "strainwave/model/tooth/backlash.hpp"
+#include "strainwave/model/tooth/flank_modification.hpp"
 
 #include <optional>
 #include <vector>

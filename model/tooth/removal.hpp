@@ -1,8 +1,8 @@
 #pragma once
 // flank_modification.hpp's formulas for any scalar, in mm. Internal to this room.
 
-#include "model/kinematics/derivative.hpp"
-#include "model/tooth/flank_modification.hpp"
+#include "strainwave/model/kinematics/derivative.hpp"
+#include "strainwave/model/tooth/flank_modification.hpp"
 
 #include <algorithm>
 #include <vector>

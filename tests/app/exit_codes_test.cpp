@@ -3,8 +3,8 @@
 #include "app/exit_codes.hpp"
 
 #include "app/output.hpp"
-#include "model/gear/fields.hpp"
-#include "model/gear_file/file_error.hpp"
+#include "strainwave/model/gear/fields.hpp"
+#include "strainwave/model/gear_file/file_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Test problems with known answers: plain functions of a few numbers as evaluators, and designs of as many
 // numbers of a gear to carry them (the eight removals of a flank, whose range is wide).
 
-#include "optimize/problem.hpp"
+#include "strainwave/optimize/problem/problem.hpp"
 
 #include <atomic>
 #include <functional>

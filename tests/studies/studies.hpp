@@ -1,7 +1,7 @@
 #pragma once
 // A folder with the seed gear and a good study of it.
 
-#include "studies/study_file.hpp"
+#include "strainwave/studies/file/study.hpp"
 #include "tests/model/gear_file/files.hpp"
 
 namespace strainwave {

@@ -1,8 +1,8 @@
 // The answer of a contact state to small changes, against one dense linear system written out from the equations of
 // contact_tangent.hpp, with weak and with strong geometric stiffness; and the surface's derivatives against differences.
 
-#include "model/contact/contact_tangent.hpp"
-#include "model/contact/wave_generator_surface.hpp"
+#include "strainwave/model/contact/contact_tangent.hpp"
+#include "strainwave/model/contact/wave_generator_surface.hpp"
 #include "tests/model/kinematics/order_of_convergence.hpp"
 
 #include <gtest/gtest.h>

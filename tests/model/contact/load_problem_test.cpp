@@ -1,8 +1,8 @@
 // Section by section what an independent program found on the same unit responses: physics of the seed gear, one contact
 // point per tooth at tip height, backlash of the exact two-disc curve, linearised disc gap.
 
-#include "model/contact/load_problem.hpp"
-#include "model/contact/tangent_compliance.hpp"
+#include "strainwave/model/contact/load_problem.hpp"
+#include "strainwave/model/contact/tangent_compliance.hpp"
 
 #include "tests/model/contact/reference_cup.hpp"
 

@@ -3,7 +3,7 @@
 // tests/reference/unit-responses.json. Teeth: two heights, circumferential only; wall: radial point loads only, so the
 // components that the file does not have are zero.
 
-#include "model/flexspline/unit_responses.hpp"
+#include "strainwave/model/flexspline/unit_responses.hpp"
 
 #include <nlohmann/json.hpp>
 

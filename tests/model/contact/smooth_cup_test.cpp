@@ -1,8 +1,8 @@
 // The smooth cup of reference/assembly.json on its two discs, against an independent small-displacement program (run
 // l15_eg: C3D20R, 0.25 mm elements, exact disc gap), and under a torque couple (part_C, own_linear_exact_gap).
 
-#include "model/contact/load_problem.hpp"
-#include "model/flexspline/responses.hpp"
+#include "strainwave/model/contact/load_problem.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
 
 #include "tests/model/contact/reference_cup.hpp"
 

@@ -1,8 +1,8 @@
 // The toothed seed cup of our own finite elements on the discs, against the independent compliance (physics of the seed
 // gear: contact frozen as assembled with the linearised gap, point contact of three rows, other mesh, other footprint).
 
-#include "model/contact/load_problem.hpp"
-#include "model/flexspline/responses.hpp"
+#include "strainwave/model/contact/load_problem.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
 
 #include "tests/model/contact/reference_cup.hpp"
 

@@ -1,5 +1,5 @@
-#include "model/contact/wave_generator_surface.hpp"
-#include "model/kinematics/neutral_curve.hpp"
+#include "strainwave/model/contact/wave_generator_surface.hpp"
+#include "strainwave/model/kinematics/neutral_curve.hpp"
 
 #include <gtest/gtest.h>
 

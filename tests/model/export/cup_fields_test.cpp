@@ -1,11 +1,11 @@
 // The cup's fields against the contact analysis that made the forces: an independent way to the same
 // displacements, through the finite elements of the whole ring instead of the unit responses.
 
-#include "model/export/cup_fields.hpp"
+#include "strainwave/model/export/cup_fields.hpp"
 
-#include "folder.hpp"
-#include "model/flexspline/ring.hpp"
-#include "model/forward/forward.hpp"
+#include "tests/model/export/folder.hpp"
+#include "strainwave/model/flexspline/ring.hpp"
+#include "strainwave/model/forward/forward.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // Displacements of the whole ring from one sector, against the factorization of the whole ring.
 
-#include "model/flexspline/cyclic_field.hpp"
+#include "strainwave/model/flexspline/cyclic_field.hpp"
 
-#include "../flexspline/bodies.hpp"
-#include "model/export/cup_grid.hpp"
-#include "model/flexspline/cyclic.hpp"
-#include "model/flexspline/ring.hpp"
+#include "tests/model/flexspline/bodies.hpp"
+#include "strainwave/model/export/cup_grid.hpp"
+#include "strainwave/model/flexspline/cyclic.hpp"
+#include "strainwave/model/flexspline/ring.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // The exported deck: what it says, and that CalculiX gives our fields for it.
 
-#include "model/export/cup_deck.hpp"
+#include "strainwave/model/export/cup_deck.hpp"
 
-#include "../flexspline/bodies.hpp"
-#include "folder.hpp"
-#include "model/flexspline/calculix.hpp"
-#include "model/flexspline/cyclic_field.hpp"
-#include "model/flexspline/ring.hpp"
+#include "tests/model/flexspline/bodies.hpp"
+#include "tests/model/export/folder.hpp"
+#include "strainwave/model/flexspline/calculix.hpp"
+#include "strainwave/model/flexspline/cyclic_field.hpp"
+#include "strainwave/model/flexspline/ring.hpp"
 
 #include <cmath>
 #include <sstream>

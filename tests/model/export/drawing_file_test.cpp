@@ -1,9 +1,9 @@
 // Profiles as files: DXF groups, CSV columns.
 
-#include "model/export/profile_csv.hpp"
-#include "model/export/profile_dxf.hpp"
+#include "strainwave/model/export/profile_csv.hpp"
+#include "strainwave/model/export/profile_dxf.hpp"
 
-#include "folder.hpp"
+#include "tests/model/export/folder.hpp"
 
 #include <map>
 #include <sstream>

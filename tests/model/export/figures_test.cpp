@@ -1,9 +1,9 @@
 // Figures: their data, and pictures that are not empty.
 
-#include "model/export/figures.hpp"
+#include "strainwave/model/export/figures.hpp"
 
-#include "folder.hpp"
-#include "model/forward/forward.hpp"
+#include "tests/model/export/folder.hpp"
+#include "strainwave/model/forward/forward.hpp"
 
 #include <sstream>
 #include <system_error>

@@ -1,7 +1,7 @@
 #pragma once
 // A folder of its own for a test, gone afterwards; and the seed gear on a mesh that solves in a moment.
 
-#include "model/gear/gear.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 #include <cstdlib>
 #include <filesystem>

@@ -1,10 +1,10 @@
 // Outlines against the involute by another formula, and against the backlash of the kinematics.
 
-#include "model/export/profile.hpp"
+#include "strainwave/model/export/profile.hpp"
 
-#include "model/kinematics/neutral_curve.hpp"
-#include "model/tooth/backlash.hpp"
-#include "model/tooth/profile.hpp"
+#include "strainwave/model/kinematics/neutral_curve.hpp"
+#include "strainwave/model/tooth/backlash.hpp"
+#include "strainwave/model/tooth/profile.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // Structure of the VTKHDF file, read back with HDF5, and VTK's numbering of a quadratic hexahedron.
 
-#include "model/export/cup_grid.hpp"
+#include "strainwave/model/export/cup_grid.hpp"
 
-#include "../flexspline/bodies.hpp"
-#include "folder.hpp"
+#include "tests/model/flexspline/bodies.hpp"
+#include "tests/model/export/folder.hpp"
 
 #include <array>
 #include <cmath>

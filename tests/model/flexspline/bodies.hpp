@@ -1,8 +1,8 @@
 #pragma once
 // Bodies for tests: a plain tube sector, and a coarse cup with few broad teeth.
 
-#include "model/flexspline/mesh.hpp"
-#include "model/flexspline/responses.hpp"
+#include "strainwave/model/flexspline/mesh.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
 
 #include <map>
 #include <numbers>

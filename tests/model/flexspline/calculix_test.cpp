@@ -1,11 +1,11 @@
 // The same mesh, element and loads in an independent program: CalculiX (ccx) reads our deck and must print
 // our displacements.
 
-#include "model/flexspline/calculix.hpp"
+#include "strainwave/model/flexspline/calculix.hpp"
 
-#include "bodies.hpp"
-#include "model/flexspline/cyclic.hpp"
-#include "model/flexspline/responses.hpp"
+#include "tests/model/flexspline/bodies.hpp"
+#include "strainwave/model/flexspline/cyclic.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
 
 #include <cmath>
 #include <cstdlib>

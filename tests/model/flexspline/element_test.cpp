@@ -1,4 +1,4 @@
-#include "model/flexspline/element.hpp"
+#include "strainwave/model/flexspline/element.hpp"
 
 #include <cmath>
 #include <map>

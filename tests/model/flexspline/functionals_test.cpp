@@ -1,8 +1,8 @@
-#include "model/flexspline/functionals.hpp"
+#include "strainwave/model/flexspline/functionals.hpp"
 
-#include "bodies.hpp"
-#include "model/flexspline/responses.hpp"
-#include "model/flexspline/ring.hpp"
+#include "tests/model/flexspline/bodies.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
+#include "strainwave/model/flexspline/ring.hpp"
 
 #include <cmath>
 

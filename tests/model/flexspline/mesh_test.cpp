@@ -1,9 +1,9 @@
-#include "model/flexspline/mesh.hpp"
+#include "strainwave/model/flexspline/mesh.hpp"
 
-#include "bodies.hpp"
-#include "model/flexspline/element.hpp"
-#include "model/flexspline/ring.hpp"
-#include "model/flexspline/tooth_outline.hpp"
+#include "tests/model/flexspline/bodies.hpp"
+#include "strainwave/model/flexspline/element.hpp"
+#include "strainwave/model/flexspline/ring.hpp"
+#include "strainwave/model/flexspline/tooth_outline.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
-#include "model/flexspline/response_store.hpp"
+#include "strainwave/model/flexspline/response_store.hpp"
 
-#include "bodies.hpp"
+#include "tests/model/flexspline/bodies.hpp"
 
 #include <cstdlib>
 #include <filesystem>

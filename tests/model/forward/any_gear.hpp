@@ -2,7 +2,7 @@
 // Gears for tests that must end well for every legal file: a quick one, fields at the ends of their ranges,
 // and random ones counted by an index, so that any of them can be made again alone.
 
-#include "model/gear/fields.hpp"
+#include "strainwave/model/gear/fields.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -2,8 +2,8 @@
 
 #include "tests/model/forward/any_gear.hpp"
 
-#include "model/forward/forward.hpp"
-#include "model/forward/result_json.hpp"
+#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/export/result_json.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

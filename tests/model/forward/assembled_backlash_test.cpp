@@ -1,11 +1,11 @@
 // Backlash over φ and face of the coned cup: the independent figures of three sections, and what results say of it.
 
-#include "model/flexspline/responses.hpp"
-#include "model/forward/assembled_backlash.hpp"
-#include "model/forward/forward.hpp"
-#include "model/flexspline/response_request.hpp"
-#include "model/forward/gear_surface.hpp"
-#include "model/forward/result_json.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
+#include "strainwave/model/meshing/assembled_backlash.hpp"
+#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/flexspline/response_request.hpp"
+#include "strainwave/model/meshing/gear_surface.hpp"
+#include "strainwave/model/export/result_json.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

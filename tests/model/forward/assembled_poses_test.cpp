@@ -1,8 +1,8 @@
 // Poses of the coned cup against a nonlinear solution: run n2z of reference/assembly.json (large deformation, edge contact at
 // the spatial disc edges), smooth cup, five sections, φ ≤ 20°. The figures are what small displacements can give.
 
-#include "model/flexspline/responses.hpp"
-#include "model/forward/flank_points.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
+#include "strainwave/model/meshing/flank_points.hpp"
 
 #include "tests/model/contact/reference_cup.hpp"
 

@@ -1,11 +1,11 @@
 // Contact over flank and face: the selection of points misses none, one point is the source text's model, forces converge.
 
-#include "model/flexspline/responses.hpp"
-#include "model/forward/flank_points.hpp"
-#include "model/forward/forward.hpp"
-#include "model/flexspline/response_request.hpp"
-#include "model/forward/gear_surface.hpp"
-#include "model/forward/phase_model.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
+#include "strainwave/model/meshing/flank_points.hpp"
+#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/flexspline/response_request.hpp"
+#include "strainwave/model/meshing/gear_surface.hpp"
+#include "strainwave/model/loading/phase_model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Derivatives of forward results against central differences of whole analyses: their error has to fall with the square of
 // the step, down to the rounding of an analysis.
 
-#include "model/forward/forward.hpp"
-#include "model/forward/gradient.hpp"
-#include "model/gear/fields.hpp"
+#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/forward/gradient.hpp"
+#include "strainwave/model/gear/fields.hpp"
 #include "tests/model/kinematics/order_of_convergence.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Contact pressure: textbook numbers for two cylinders, the limits of a nearly conforming flank, and a seed-gear tooth
 // computed by hand from involute radii.
 
-#include "model/forward/forward.hpp"
-#include "model/forward/pressure.hpp"
-#include "model/forward/result_json.hpp"
+#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/meshing/pressure.hpp"
+#include "strainwave/model/export/result_json.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 // height, which leaves the torque and moves the peak: with the same heights the peaks are compared in
 // tests/model/contact/toothed_cup_test.cpp.
 
-#include "model/forward/forward.hpp"
+#include "strainwave/model/forward/forward.hpp"
 
 #include <gtest/gtest.h>
 

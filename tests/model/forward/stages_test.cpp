@@ -1,6 +1,6 @@
 // What runs again, what is reused and what is skipped.
 
-#include "model/forward/forward.hpp"
+#include "strainwave/model/forward/forward.hpp"
 
 #include <gtest/gtest.h>
 

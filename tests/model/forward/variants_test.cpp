@@ -1,7 +1,7 @@
 // Every way a gear file can ask for: shapes, directions, phases, odd teeth, one lobe, gears without a result.
 
-#include "model/forward/forward.hpp"
-#include "model/forward/result_json.hpp"
+#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/export/result_json.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

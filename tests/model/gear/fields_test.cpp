@@ -1,6 +1,6 @@
 // Walks the whole table of fields.
 
-#include "model/gear/fields.hpp"
+#include "strainwave/model/gear/fields.hpp"
 
 #include <gtest/gtest.h>
 

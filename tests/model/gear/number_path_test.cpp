@@ -1,4 +1,4 @@
-#include "model/gear/fields.hpp"
+#include "strainwave/model/gear/fields.hpp"
 
 #include <gtest/gtest.h>
 

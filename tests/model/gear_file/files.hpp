@@ -1,7 +1,7 @@
 #pragma once
 // Files and edits for these tests.
 
-#include "model/gear_file/gear_file.hpp"
+#include "strainwave/model/gear_file/gear_file.hpp"
 
 #include <gtest/gtest.h>
 

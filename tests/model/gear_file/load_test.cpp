@@ -1,9 +1,9 @@
 // Gear files that are right: what is read is what stands there.
 
-#include "model/gear/fields.hpp"
+#include "strainwave/model/gear/fields.hpp"
 #include "tests/model/gear_file/files.hpp"
 
-#include "model/gear_file/field_reader.hpp"
+#include "strainwave/model/gear_file/field_reader.hpp"
 
 #include <set>
 

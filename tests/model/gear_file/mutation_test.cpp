@@ -1,6 +1,6 @@
 // Damaged files: never a crash, always a gear or a FileError that names a place in the file.
 
-#include "model/gear/fields.hpp"
+#include "strainwave/model/gear/fields.hpp"
 #include "tests/model/gear_file/files.hpp"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // The JSON Schema, judged by an independent validator (python3-jsonschema), and the reference page.
 
-#include "model/gear_file/gear_schema.hpp"
+#include "strainwave/model/gear_file/gear_schema.hpp"
 
-#include "model/gear/fields.hpp"
-#include "model/gear_file/toml_source.hpp"
+#include "strainwave/model/gear/fields.hpp"
+#include "strainwave/model/gear_file/toml_source.hpp"
 #include "tests/model/gear_file/files.hpp"
 
 #include <nlohmann/json.hpp>

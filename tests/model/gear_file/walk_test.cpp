@@ -1,6 +1,6 @@
 // Every field of the table, wrong in a file: the message stands at the value.
 
-#include "model/gear/fields.hpp"
+#include "strainwave/model/gear/fields.hpp"
 #include "tests/model/gear_file/files.hpp"
 
 #include <fmt/format.h>

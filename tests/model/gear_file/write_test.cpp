@@ -1,6 +1,6 @@
 // write_gear(): complete, and reads back bit for bit.
 
-#include "model/gear/fields.hpp"
+#include "strainwave/model/gear/fields.hpp"
 #include "tests/model/gear_file/files.hpp"
 
 #include <cmath>

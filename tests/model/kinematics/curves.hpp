@@ -1,8 +1,8 @@
 #pragma once
 // Curves of the seed gear and its variations, for the tests of kinematics.
 
-#include "model/gear/gear.hpp"
-#include "model/kinematics/neutral_curve.hpp"
+#include "strainwave/model/gear/gear.hpp"
+#include "strainwave/model/kinematics/neutral_curve.hpp"
 
 #include <numbers>
 

@@ -1,6 +1,6 @@
 // The exact two-disc curve: what defines it, and agreement of the two solvers.
 
-#include "model/kinematics/shooting.hpp"
+#include "strainwave/model/kinematics/shooting.hpp"
 #include "tests/model/kinematics/curves.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Closed forms of the first-order shapes, their wrap condition and their arc length.
 
-#include "model/kinematics/wrap.hpp"
+#include "strainwave/model/kinematics/wrap.hpp"
 #include "tests/model/kinematics/curves.hpp"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>

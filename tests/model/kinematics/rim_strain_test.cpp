@@ -1,8 +1,8 @@
 // Bending strain of the rim against closed forms: a ring bent to cos 2φ, and the first integral of the elastica.
 
-#include "model/kinematics/rim_strain.hpp"
+#include "strainwave/model/kinematics/rim_strain.hpp"
 
-#include "model/gear/gear.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 #include <gtest/gtest.h>
 

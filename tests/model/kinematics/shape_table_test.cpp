@@ -1,6 +1,6 @@
 // Wave-generator shapes from a file: spline, place of an error.
 
-#include "model/gear/fields.hpp"
+#include "strainwave/model/gear/fields.hpp"
 #include "tests/model/kinematics/curves.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Every derivative of backlash and contact radius against central differences: the error must fall with the
 // square of the step.
 
-#include "model/tooth/backlash_gradient.hpp"
+#include "strainwave/model/tooth/backlash_gradient.hpp"
 #include "tests/model/kinematics/order_of_convergence.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // The search for the least gap: against brute force for modified flanks, and the properties that every gear
 // must show.
 
-#include "model/tooth/backlash.hpp"
+#include "strainwave/model/tooth/backlash.hpp"
 #include "tests/model/tooth/brute_force.hpp"
 
 #include <gtest/gtest.h>

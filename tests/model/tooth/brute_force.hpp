@@ -4,9 +4,9 @@
 // by circle. Error about the square of the point distance. Shares only the pose and removal_mm() with the
 // program.
 
-#include "model/gear/gear.hpp"
-#include "model/kinematics/neutral_curve.hpp"
-#include "model/tooth/flank_modification.hpp"
+#include "strainwave/model/gear/gear.hpp"
+#include "strainwave/model/kinematics/neutral_curve.hpp"
+#include "strainwave/model/tooth/flank_modification.hpp"
 
 #include <algorithm>
 #include <cmath>

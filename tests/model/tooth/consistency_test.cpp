@@ -1,6 +1,6 @@
 // Gears that contradict themselves: the status, and a sentence with the offending numbers.
 
-#include "model/tooth/consistency.hpp"
+#include "strainwave/model/tooth/consistency.hpp"
 
 #include <gtest/gtest.h>
 

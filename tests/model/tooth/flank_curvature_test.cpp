@@ -1,7 +1,7 @@
 // Curvature of the flanks: the involute's closed form, and circles through three points of the drawn profile.
 
-#include "model/tooth/flank_curvature.hpp"
-#include "model/tooth/profile.hpp"
+#include "strainwave/model/tooth/flank_curvature.hpp"
+#include "strainwave/model/tooth/profile.hpp"
 
 #include <gtest/gtest.h>
 

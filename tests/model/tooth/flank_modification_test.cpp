@@ -1,6 +1,6 @@
 // Where each key removes material, and what is refused.
 
-#include "model/tooth/flank_modification.hpp"
+#include "strainwave/model/tooth/flank_modification.hpp"
 
 #include <gtest/gtest.h>
 

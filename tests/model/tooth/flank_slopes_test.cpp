@@ -1,9 +1,9 @@
 // Derivatives of a single contact: against those of the whole backlash table, and against central differences where the table
 // has none (fixed heights, height of the contact, direction of the normal, the coast flank).
 
-#include "model/tooth/backlash_gradient.hpp"
-#include "model/tooth/flank_slopes.hpp"
-#include "model/tooth/profile.hpp"
+#include "strainwave/model/tooth/backlash_gradient.hpp"
+#include "strainwave/model/tooth/flank_slopes.hpp"
+#include "strainwave/model/tooth/profile.hpp"
 #include "tests/model/kinematics/order_of_convergence.hpp"
 
 #include <gtest/gtest.h>

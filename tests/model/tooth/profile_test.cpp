@@ -1,6 +1,6 @@
 // Points along the flanks against the source text's involute, and the gap profile against the backlash.
 
-#include "model/tooth/profile.hpp"
+#include "strainwave/model/tooth/profile.hpp"
 #include "tests/model/tooth/brute_force.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // A thousand random gears (tooth numbers, shifts, radii, shapes of the wave generator, modifications): the
 // search agrees with brute force, derivatives are finite numbers, and every refusal has a sentence.
 
-#include "model/tooth/backlash.hpp"
-#include "model/tooth/backlash_gradient.hpp"
+#include "strainwave/model/tooth/backlash.hpp"
+#include "strainwave/model/tooth/backlash_gradient.hpp"
 #include "tests/model/tooth/brute_force.hpp"
 
 #include <gtest/gtest.h>

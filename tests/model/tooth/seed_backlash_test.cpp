@@ -1,8 +1,8 @@
 // The seed gear's initial backlash against tests/reference/kinematics-seed.json (independent program, not
 // part of this project) and the statements of the physics notes.
 
-#include "model/tooth/backlash.hpp"
-#include "model/tooth/backlash_gradient.hpp"
+#include "strainwave/model/tooth/backlash.hpp"
+#include "strainwave/model/tooth/backlash_gradient.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
