@@ -1,12 +1,12 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "app/result_table.hpp"
+#include "strainwave/common/files/replaced_file.hpp"
 #include "strainwave/model/export/figures.hpp"
 #include "strainwave/model/export/flank_figures.hpp"
-#include "strainwave/common/files/replaced_file.hpp"
-#include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/export/result_file.hpp"
 #include "strainwave/model/export/result_json.hpp"
+#include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/gear/fields.hpp"
 #include "strainwave/model/gear_file/gear_file.hpp"
 
@@ -58,7 +58,8 @@ void draw_figures(const ForwardResult& result, Gear gear, Want want, ForwardMode
     report(drawn.note);
 }
 
-/// Throws std::system_error "cannot write PATH" when a file of this name could not be made; leaves nothing behind.
+/// Throws std::system_error "cannot write PATH" when a file of this name could not be made; leaves nothing
+/// behind.
 void try_to_write(const std::filesystem::path& path) {
   std::error_code unknown;
   if (std::filesystem::is_directory(path, unknown))

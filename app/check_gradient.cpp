@@ -1,9 +1,9 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "strainwave/optimize/problem/gradient_check.hpp"
-#include "strainwave/studies/search/optimisation.hpp"
 #include "strainwave/studies/commands/kinds.hpp"
 #include "strainwave/studies/file/study_gear.hpp"
+#include "strainwave/studies/search/optimisation.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -24,8 +24,8 @@ struct CheckOptions {
   bool at_start = false;
 };
 
-/// Where slopes are compared: the study's start, but numbers on a bound (one side only) or at 0 (where slope and taper have a
-/// kink) moved into their range by odd shares of it, no two alike.
+/// Where slopes are compared: the study's start, but numbers on a bound (one side only) or at 0 (where slope
+/// and taper have a kink) moved into their range by odd shares of it, no two alike.
 std::vector<double> smooth_point(const DesignSpace& design) {
   std::vector<double> x = design.start();
   for (std::size_t i = 0; i < x.size(); ++i) {

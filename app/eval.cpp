@@ -1,7 +1,7 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
-#include "strainwave/model/gear_file/gear_file.hpp"
 #include "strainwave/common/files/whole_file.hpp"
+#include "strainwave/model/gear_file/gear_file.hpp"
 #include "strainwave/studies/commands/reproduce.hpp"
 
 #include <fmt/format.h>

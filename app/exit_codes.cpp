@@ -1,8 +1,8 @@
 #include "app/exit_codes.hpp"
 
 #include "app/output.hpp"
-#include "strainwave/model/gear/fields.hpp"
 #include "strainwave/common/core/memory.hpp"
+#include "strainwave/model/gear/fields.hpp"
 #include "strainwave/model/gear_file/file_error.hpp"
 
 #include <csignal>

@@ -46,7 +46,8 @@ void refuse_to_replace(const std::string& output, std::initializer_list<std::str
   for (const std::string& input : inputs) {
     std::error_code none; // a file that does not exist is nobody's input
     if (!input.empty() && std::filesystem::equivalent(output, input, none))
-      throw UsageError(output + " is an input of this command and would be replaced; give another name for the output");
+      throw UsageError(
+          output + " is an input of this command and would be replaced; give another name for the output");
   }
 }
 

@@ -1,7 +1,7 @@
+#include "strainwave/studies/file/schema.hpp"
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "strainwave/model/gear_file/gear_schema.hpp"
-#include "strainwave/studies/file/schema.hpp"
 
 #include <nlohmann/json.hpp>
 

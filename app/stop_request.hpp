@@ -19,8 +19,9 @@ bool stop_signalled();
 /// Ends the program with ExitCode::stopped, whatever is in flight.
 [[noreturn]] void leave_stopped();
 
-/// Leaves the program with ExitCode::stopped 4.8 s after a stop was asked for, whatever it is doing then: batch systems kill
-/// soon after. Nothing that counts is lost: journals are synced every second, other files are renamed into place.
+/// Leaves the program with ExitCode::stopped 4.8 s after a stop was asked for, whatever it is doing then:
+/// batch systems kill soon after. Nothing that counts is lost: journals are synced every second, other files
+/// are renamed into place.
 class StopGuard {
 public:
   explicit StopGuard(std::function<bool()> stop);

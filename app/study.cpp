@@ -3,9 +3,9 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "app/stop_request.hpp"
-#include "strainwave/studies/search/optimisation.hpp"
 #include "strainwave/studies/commands/kinds.hpp"
 #include "strainwave/studies/file/study_gear.hpp"
+#include "strainwave/studies/search/optimisation.hpp"
 
 #include <memory>
 

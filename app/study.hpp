@@ -22,15 +22,16 @@ struct StudyOptions {
   std::optional<double> time_limit_s;
 };
 
-/// Runs `command`; a journal that is refused becomes a sentence and an exit code: 2 another plan, 74 damaged or in use,
-/// 75 rows are missing, 3 shards contradict each other.
+/// Runs `command`; a journal that is refused becomes a sentence and an exit code: 2 another plan, 74 damaged
+/// or in use, 75 rows are missing, 3 shards contradict each other.
 ExitCode with_journals(const std::function<ExitCode()>& command);
 
 ExitCode run_search(const StudyOptions& options, const StudyFile& study, const ResultFolder& folder);
 ExitCode run_rows_of(const StudyOptions& options, const StudyFile& study, const ResultFolder& folder);
 ExitCode exit_code_of(RunEnd end);
 
-/// The study of `options` and its folder, with the plan written. Throws UsageError where the folder is another study's.
+/// The study of `options` and its folder, with the plan written. Throws UsageError where the folder is
+/// another study's.
 ResultFolder prepare_folder(const StudyOptions& options, const StudyFile& study);
 
 } // namespace strainwave::app

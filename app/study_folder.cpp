@@ -4,12 +4,12 @@
 #include "app/output.hpp"
 #include "app/study.hpp"
 #include "strainwave/common/rows/merge.hpp"
+#include "strainwave/studies/commands/kinds.hpp"
+#include "strainwave/studies/commands/status.hpp"
+#include "strainwave/studies/file/study_gear.hpp"
+#include "strainwave/studies/results/compare.hpp"
 #include "strainwave/studies/search/optimisation.hpp"
 #include "strainwave/studies/tables/text.hpp"
-#include "strainwave/studies/results/compare.hpp"
-#include "strainwave/studies/commands/status.hpp"
-#include "strainwave/studies/commands/kinds.hpp"
-#include "strainwave/studies/file/study_gear.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -3,10 +3,10 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "app/study.hpp"
-#include "strainwave/studies/search/optimisation.hpp"
-#include "strainwave/studies/commands/plan.hpp"
 #include "strainwave/studies/commands/kinds.hpp"
+#include "strainwave/studies/commands/plan.hpp"
 #include "strainwave/studies/file/study_gear.hpp"
+#include "strainwave/studies/search/optimisation.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -4,8 +4,8 @@
 #include "app/progress_line.hpp"
 #include "app/stop_request.hpp"
 #include "app/study.hpp"
-#include "strainwave/studies/tables/text.hpp"
 #include "strainwave/studies/commands/kinds.hpp"
+#include "strainwave/studies/tables/text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

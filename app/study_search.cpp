@@ -4,8 +4,8 @@
 #include "app/progress_line.hpp"
 #include "app/stop_request.hpp"
 #include "app/study.hpp"
-#include "strainwave/studies/search/text.hpp"
 #include "strainwave/studies/search/results_file.hpp"
+#include "strainwave/studies/search/text.hpp"
 
 #include <nlohmann/json.hpp>
 

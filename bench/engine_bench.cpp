@@ -1,6 +1,6 @@
 // Studies without a model: what the engine, the journal and the designs cost per row.
-#include "strainwave/common/rows/run_rows.hpp"
 #include "strainwave/common/rows/merge.hpp"
+#include "strainwave/common/rows/run_rows.hpp"
 #include "strainwave/common/sampling/design.hpp"
 #include "strainwave/common/sampling/sources.hpp"
 

@@ -1,7 +1,7 @@
-// How many heights and slices contact over the whole flank needs: peak force, rotation and zone of the gallery's
-// seed_flank.toml and seed_coned.toml over flank_points, face_slices and mesh.along_face, as a table for
-// docs/flank-contact.md, with the time of each (finite elements from the cache when it knows the cup: run twice). With the
-// environment's STRAINWAVE_FIGURES = FOLDER the figure is drawn there as well.
+// How many heights and slices contact over the whole flank needs: peak force, rotation and zone of the
+// gallery's seed_flank.toml and seed_coned.toml over flank_points, face_slices and mesh.along_face, as a
+// table for docs/flank-contact.md, with the time of each (finite elements from the cache when it knows the
+// cup: run twice). With the environment's STRAINWAVE_FIGURES = FOLDER the figure is drawn there as well.
 
 #include "strainwave/model/export/figure.hpp"
 #include "strainwave/model/forward/forward.hpp"

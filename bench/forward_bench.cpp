@@ -1,12 +1,12 @@
 // The forward model on the seed gear, finite elements already solved: what one evaluation of a study costs.
 
-#include "strainwave/model/flexspline/responses.hpp"
-#include "strainwave/model/meshing/flank_points.hpp"
-#include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/flexspline/response_request.hpp"
-#include "strainwave/model/meshing/gear_surface.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
+#include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/loading/load_cases.hpp"
 #include "strainwave/model/loading/phase_model.hpp"
+#include "strainwave/model/meshing/flank_points.hpp"
+#include "strainwave/model/meshing/gear_surface.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -77,7 +77,8 @@ void new_deformation_linear(benchmark::State& state) {
 }
 BENCHMARK(new_deformation_linear)->Unit(benchmark::kMillisecond);
 
-// 28 teeth × 6 heights × 5 slices: gaps, selection and contact solve are new; assembly and finite elements are not.
+// 28 teeth × 6 heights × 5 slices: gaps, selection and contact solve are new; assembly and finite elements
+// are not.
 void whole_flank(benchmark::State& state) {
   Gear gear = one_load(7.0);
   gear.contact.flank_points = 6;
@@ -91,7 +92,8 @@ void whole_flank(benchmark::State& state) {
 }
 BENCHMARK(whole_flank)->Unit(benchmark::kMillisecond);
 
-// The same, started from the selection and closed set of the unmodified gear, as a study's plan fixes them once.
+// The same, started from the selection and closed set of the unmodified gear, as a study's plan fixes them
+// once.
 void whole_flank_started(benchmark::State& state) {
   Gear gear = one_load(7.0);
   gear.contact.flank_points = 6;
@@ -105,7 +107,8 @@ void whole_flank_started(benchmark::State& state) {
 }
 BENCHMARK(whole_flank_started)->Unit(benchmark::kMillisecond);
 
-/// The contact alone: gaps are known and a little different every time, assembly and finite elements are there.
+/// The contact alone: gaps are known and a little different every time, assembly and finite elements are
+/// there.
 class ContactAlone {
 public:
   ContactAlone() : gear(one_load(7.0)) {

@@ -1,9 +1,9 @@
 // Optimisation: one evaluation of the seed gear at a design that is new, and what the layer above the model
 // costs. The cup comes from the cache on disk.
 
-#include "strainwave/optimize/problem/evaluation_store.hpp"
 #include "strainwave/optimize/gear/force_bound.hpp"
 #include "strainwave/optimize/gear/gear_evaluator.hpp"
+#include "strainwave/optimize/problem/evaluation_store.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -75,8 +75,9 @@ DesignSpace flank_design(bool with_u0, bool lead) {
   return DesignSpace(std::move(variables));
 }
 
-/// range(0): 0 one point per tooth linear, 1 the same unilateral, 2 nine heights, 3 nine heights and five slices of the coned
-/// cup; range(1): u0 and e free too; range(2): with its gradient. Four phases, every evaluation a new design.
+/// range(0): 0 one point per tooth linear, 1 the same unilateral, 2 nine heights, 3 nine heights and five
+/// slices of the coned cup; range(1): u0 and e free too; range(2): with its gradient. Four phases, every
+/// evaluation a new design.
 void evaluate_design(benchmark::State& state) {
   const auto model = state.range(0);
   const bool with_u0 = state.range(1) != 0;

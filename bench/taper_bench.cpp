@@ -1,7 +1,8 @@
-// What modifications across the face do to the coned seed gear: peak force, pressure, rotation of the gallery's
-// seed_coned.toml over lead taper, lead crowning, end relief and disc taper, as tables for docs/flank-contact.md. For each
-// the profile shift x2 is set anew so that the least backlash of the assembled cup stays 1 µm: rotations compare at the same
-// clearance. With STRAINWAVE_FIGURES = FOLDER the figure is drawn there as well.
+// What modifications across the face do to the coned seed gear: peak force, pressure, rotation of the
+// gallery's seed_coned.toml over lead taper, lead crowning, end relief and disc taper, as tables for
+// docs/flank-contact.md. For each the profile shift x2 is set anew so that the least backlash of the
+// assembled cup stays 1 µm: rotations compare at the same clearance. With STRAINWAVE_FIGURES = FOLDER the
+// figure is drawn there as well.
 
 #include "strainwave/model/export/figure.hpp"
 #include "strainwave/model/forward/forward.hpp"

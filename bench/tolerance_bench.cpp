@@ -1,11 +1,11 @@
-// Tolerance samples of the seed gear, both lobes with errors of every tooth: what is spent before any contact is solved, and
-// whole rows through contact and outputs. s_per_million: wall-clock seconds of 10⁶ rows on the threads of the line;
-// cpu_us_per_row: of one thread, whatever else the machine does.
-#include "strainwave/studies/tolerances/sampled_gear.hpp"
+// Tolerance samples of the seed gear, both lobes with errors of every tooth: what is spent before any contact
+// is solved, and whole rows through contact and outputs. s_per_million: wall-clock seconds of 10⁶ rows on the
+// threads of the line; cpu_us_per_row: of one thread, whatever else the machine does.
 #include "strainwave/common/sampling/design.hpp"
 #include "strainwave/common/sampling/sources.hpp"
 #include "strainwave/model/tolerance/tolerance_model.hpp"
 #include "strainwave/studies/tolerances/monte_carlo.hpp"
+#include "strainwave/studies/tolerances/sampled_gear.hpp"
 
 #include <benchmark/benchmark.h>
 

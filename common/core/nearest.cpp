@@ -17,7 +17,8 @@ char folded(char letter) {
 bool lacks_ending(std::string_view wrong, std::string_view whole) {
   if (wrong.size() < 3 || wrong.size() >= whole.size())
     return false;
-  return std::equal(wrong.begin(), wrong.end(), whole.begin(), [](char a, char b) { return folded(a) == folded(b); });
+  return std::equal(wrong.begin(), wrong.end(), whole.begin(),
+                    [](char a, char b) { return folded(a) == folded(b); });
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// A file that appears whole or not at all: written beside its name as NAME.part, then renamed into place. When
-// that fails nothing stays behind and an older file of that name is untouched.
+// A file that appears whole or not at all: written beside its name as NAME.part, then renamed into place.
+// When that fails nothing stays behind and an older file of that name is untouched.
 
 #include <filesystem>
 #include <string_view>

@@ -1,6 +1,7 @@
 #pragma once
-// Memory of a stage by the content of its input: the exact bits that the stage reads, and nothing else, are the key. So a
-// stage cannot run again for a change that it does not see, and cannot be reused for one that it does.
+// Memory of a stage by the content of its input: the exact bits that the stage reads, and nothing else, are
+// the key. So a stage cannot run again for a change that it does not see, and cannot be reused for one that
+// it does.
 
 #include <cstring>
 #include <list>
@@ -35,8 +36,8 @@ private:
   std::string bits_;
 };
 
-/// The last `capacity` values, least recently used first out. get() runs `compute` under the memory's lock, so that two
-/// threads never compute one value twice.
+/// The last `capacity` values, least recently used first out. get() runs `compute` under the memory's lock,
+/// so that two threads never compute one value twice.
 template <class Value>
 class StageMemory {
 public:

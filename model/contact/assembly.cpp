@@ -50,8 +50,8 @@ void summarise(AssembledState& state) {
   }
 }
 
-/// Exact gap and normals on the closed set of the last contact problem; false where the steps do not converge, which leaves
-/// that problem's forces.
+/// Exact gap and normals on the closed set of the last contact problem; false where the steps do not
+/// converge, which leaves that problem's forces.
 bool settle_closed(const RingCompliance& ring, const WaveGeneratorSurface& surface, AssembledState& state) {
   std::vector<Eigen::Index> index;
   ClosedContact closed;

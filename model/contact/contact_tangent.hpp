@@ -1,18 +1,21 @@
 #pragma once
-// How a contact state answers small changes of what it stands on, its closed teeth and wall stations staying closed.
+// How a contact state answers small changes of what it stands on, its closed teeth and wall stations staying
+// closed.
 //
-// At each closed station n is the contact normal, τ = (−n_c, n_r) the tangent (components: radial, circumferential). The force
-// change has a part dλ along n and a part f along τ, because the normal turns: dn = ν τ, f = λ ν. On a curved rigid surface the
-// normal also turns with the displacement, ν = ν₀ + κ τ·du (κ: curvature of the surface of equal gap, 1/distance from a
-// disc's centre), which makes the geometric stiffness σ = λ κ. With G the free cup's compliance (teeth t, stations n and τ):
+// At each closed station n is the contact normal, τ = (−n_c, n_r) the tangent (components: radial,
+// circumferential). The force change has a part dλ along n and a part f along τ, because the normal turns: dn
+// = ν τ, f = λ ν. On a curved rigid surface the normal also turns with the displacement, ν = ν₀ + κ τ·du (κ:
+// curvature of the surface of equal gap, 1/distance from a disc's centre), which makes the geometric
+// stiffness σ = λ κ. With G the free cup's compliance (teeth t, stations n and τ):
 //
 //     du_n = G_nn dλ + G_nτ f − G_nt dF + v_n          0 = du_n + dg
 //     du_τ = G_τn dλ + G_ττ f − G_τt dF + v_τ          f = σ du_τ + f₀
 //     0 = t + G_tt dF − G_tn dλ − G_tτ f − r dθ          r · dF = m      (or dθ = 0)
 //
-// v: displacement of the wall, t: change of the teeth's gaps, dg: change of the wall's gap, f₀ = λ ν₀, m: torque's own change,
-// all with the forces held. M = [G_tt −G_tn; −G_nt G_nn] is factorized once; f is found by repeated substitution, which
-// contracts by σ‖G‖ (some 1e-3: a force of 10 N turns by 1 µm/13 mm), or by a full solve should it ever not contract.
+// v: displacement of the wall, t: change of the teeth's gaps, dg: change of the wall's gap, f₀ = λ ν₀, m:
+// torque's own change, all with the forces held. M = [G_tt −G_tn; −G_nt G_nn] is factorized once; f is found
+// by repeated substitution, which contracts by σ‖G‖ (some 1e-3: a force of 10 N turns by 1 µm/13 mm), or by a
+// full solve should it ever not contract.
 
 #include <Eigen/Dense>
 

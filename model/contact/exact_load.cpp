@@ -1,6 +1,7 @@
-// correct_to_exact_gap of load_problem.hpp: contact problems with the normals of the last state find the closed sets, and the
-// state on them is settled exactly (settled_contact.hpp). It is the solution when nothing that is closed pulls and nothing that
-// is open penetrates; else the next contact problem starts from it.
+// correct_to_exact_gap of load_problem.hpp: contact problems with the normals of the last state find the
+// closed sets, and the state on them is settled exactly (settled_contact.hpp). It is the solution when
+// nothing that is closed pulls and nothing that is open penetrates; else the next contact problem starts from
+// it.
 
 #include "strainwave/model/contact/settled_contact.hpp"
 

@@ -97,7 +97,8 @@ Eigen::MatrixX2d frozen_reaction(const RingCompliance& ring, const AssembledStat
   const HeldWall held = held_wall(ring, assembled, loaded);
   Eigen::VectorXd along = Eigen::VectorXd::Zero(assembled.force_n.size());
   if (held.compliance.size() > 0) {
-    // Tooth forces act along minus their functionals, so the wall would move by −G_wt F; the reaction takes it back.
+    // Tooth forces act along minus their functionals, so the wall would move by −G_wt F; the reaction takes
+    // it back.
     const Eigen::VectorXd reaction = held.compliance.llt().solve(held.from_teeth * tooth_force);
     if (assembled.hold.size() > 0) {
       along = assembled.hold.transpose() * reaction;

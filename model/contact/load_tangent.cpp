@@ -4,8 +4,8 @@ namespace strainwave {
 
 namespace {
 
-/// Steps of central differences: the gap is a distance of some 14 mm, its curvature 1/14 per mm. 1e-5 mm leaves 1e-10 of
-/// the normals and 1e-9 of their turning; 1e-3 mm of the discs 1e-6 of the second difference.
+/// Steps of central differences: the gap is a distance of some 14 mm, its curvature 1/14 per mm. 1e-5 mm
+/// leaves 1e-10 of the normals and 1e-9 of their turning; 1e-3 mm of the discs 1e-6 of the second difference.
 constexpr double wall_step_mm = 1e-5;
 constexpr double disc_step_mm = 1e-3;
 

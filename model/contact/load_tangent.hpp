@@ -2,18 +2,21 @@
 // The loaded pair linearised about one of its own exact states: what samples near that state are solved with.
 //
 // Exact contact with the wave generator has gap(u) and forces along the normals n(u) of the displaced wall:
-//     u = G (n(u) p + f),     n(u) ≈ n* + t κ t·(u − u*)        (t across n, κ = t · ∂n/∂u · t, on a disc 1/distance)
+//     u = G (n(u) p + f),     n(u) ≈ n* + t κ t·(u − u*)        (t across n, κ = t · ∂n/∂u · t, on a disc
+//     1/distance)
 // About a solution (u*, p*, f*) that is, with K = diag(p* κ) over the stations that carry,
 //     u − u* = G' (n* Δp + Δf),     G' = (G⁻¹ − t K tᵀ)⁻¹ = G + G t (K⁻¹ − tᵀ G t)⁻¹ tᵀ G
-// (the forces turn with the wall; G' is symmetric), gap = gap* + n* · (u − u*). So the tangent is an LCP again: M from G', q
-// such that the exact state solves it. What it leaves out is of second order in the distance from that state.
+// (the forces turn with the wall; G' is symmetric), gap = gap* + n* · (u − u*). So the tangent is an LCP
+// again: M from G', q such that the exact state solves it. What it leaves out is of second order in the
+// distance from that state.
 //
-// Where the turning forces are large enough to push a free cup over (G⁻¹ − t K tᵀ not positive definite: one lobe alone, strong
-// cams), only the contact itself holds it, and there is no such compliance: the directions of the forces then stay those of the
-// loaded state, which leaves out a term of first order, some thousandths of the change of displacement.
+// Where the turning forces are large enough to push a free cup over (G⁻¹ − t K tᵀ not positive definite: one
+// lobe alone, strong cams), only the contact itself holds it, and there is no such compliance: the directions
+// of the forces then stay those of the loaded state, which leaves out a term of first order, some thousandths
+// of the change of displacement.
 //
-// Moving or resizing the discs by small δ changes the gaps at u* and turns the normals: q + Σ amplitude · mode with the
-// modes δe, δe² (gaps alone) and δR; see DiscChange.
+// Moving or resizing the discs by small δ changes the gaps at u* and turns the normals: q + Σ amplitude ·
+// mode with the modes δe, δe² (gaps alone) and δR; see DiscChange.
 
 #include "strainwave/model/contact/load_problem.hpp"
 

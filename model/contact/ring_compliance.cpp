@@ -260,8 +260,8 @@ std::vector<SectorForce> listed(std::span<const ToothFunctional> teeth, const Ei
 
 } // namespace
 
-// Displacements are summed sector by sector, a whole column of a response at a time: every functional of a sector costs as
-// much as one of them alone.
+// Displacements are summed sector by sector, a whole column of a response at a time: every functional of a
+// sector costs as much as one of them alone.
 
 Eigen::MatrixX2d RingCompliance::wall_displacement(std::span<const WallStation> at,
                                                    std::span<const WallStation> loaded,
@@ -300,8 +300,8 @@ Eigen::MatrixX2d RingCompliance::wall_displacement(std::span<const WallStation> 
   return result;
 }
 
-/// The functionals' own displacements from those of all flank functionals, drive then coast, of their sectors; `add` sums
-/// one sector's.
+/// The functionals' own displacements from those of all flank functionals, drive then coast, of their
+/// sectors; `add` sums one sector's.
 template <class Add>
 Eigen::VectorXd RingCompliance::measured(std::span<const ToothFunctional> teeth, const Add& add) const {
   const int drive = responses_->flank_count();

@@ -1,15 +1,16 @@
 #pragma once
-// The free cup as contact sees it: unit responses folded over equal lobes, with the wall's rows interpolated to where the
-// discs are, and dense matrices for chosen teeth and wall stations.
+// The free cup as contact sees it: unit responses folded over equal lobes, with the wall's rows interpolated
+// to where the discs are, and dense matrices for chosen teeth and wall stations.
 //
-// Folding: with an even number of sectors and both lobes alike, every load acts at φ and φ + π at once, so responses are
-// G[k] + G[k + N/2] with period N/2. Otherwise nothing is folded and the period is N.
+// Folding: with an even number of sectors and both lobes alike, every load acts at φ and φ + π at once, so
+// responses are G[k] + G[k + N/2] with period N/2. Otherwise nothing is folded and the period is N.
 //
-// Rows: cubic Lagrange interpolation P along the axis. The same weights spread a load over the rows and average the
-// displacement, so PᵀGP stays symmetric and positive definite, and force and moment of a load are kept exactly.
+// Rows: cubic Lagrange interpolation P along the axis. The same weights spread a load over the rows and
+// average the displacement, so PᵀGP stays symmetric and positive definite, and force and moment of a load are
+// kept exactly.
 //
-// The cup is turned by the meshing phase s against the wave generator: tooth k stands at 2π(k + s)/N, station o of its
-// sector at 2π(k + o + s)/N.
+// The cup is turned by the meshing phase s against the wave generator: tooth k stands at 2π(k + s)/N, station
+// o of its sector at 2π(k + o + s)/N.
 
 #include "strainwave/model/flexspline/unit_responses.hpp"
 
@@ -37,7 +38,8 @@ struct ToothFunctional {
 
 class RingCompliance {
 public:
-  /// rows_mm: where along the axis the wall may touch (ascending). fold: lobes alike (needs an even number of sectors).
+  /// rows_mm: where along the axis the wall may touch (ascending). fold: lobes alike (needs an even number of
+  /// sectors).
   RingCompliance(const UnitResponses& responses, std::vector<double> rows_mm, bool fold);
 
   int sectors() const { return responses_->sectors; }
@@ -50,14 +52,15 @@ public:
   /// ordered by angle, then row.
   std::vector<WallStation> stations(double phase) const;
 
-  /// The flank functional of a tooth at a radius of the undeformed flank: linear between two heights (held at the ends),
-  /// `circumferential` times the circumferential and `inwards` times the inward radial one, on one face slice or (−1)
-  /// shared by all of them as their hats share the face. `side`: the flank it stands on; the directions are the same.
+  /// The flank functional of a tooth at a radius of the undeformed flank: linear between two heights (held at
+  /// the ends), `circumferential` times the circumferential and `inwards` times the inward radial one, on one
+  /// face slice or (−1) shared by all of them as their hats share the face. `side`: the flank it stands on;
+  /// the directions are the same.
   ToothFunctional tooth(int sector, double radius_mm, double circumferential, double inwards, int slice = -1,
                         FlankSide side = FlankSide::drive) const;
 
-  // Compliances, mm/N; `normal` columns are (radial, circumferential) components of a contact normal per station.
-  // wall × wall: displacement along normal i from unit force along normal j.
+  // Compliances, mm/N; `normal` columns are (radial, circumferential) components of a contact normal per
+  // station. wall × wall: displacement along normal i from unit force along normal j.
   Eigen::MatrixXd wall_wall(std::span<const WallStation> stations, const Eigen::MatrixX2d& normal) const;
   void wall_wall(std::span<const WallStation> stations, const Eigen::MatrixX2d& normal,
                  Eigen::Ref<Eigen::MatrixXd> result) const;
@@ -69,8 +72,8 @@ public:
                                            std::span<const ToothFunctional> teeth) const;
   Eigen::MatrixXd tooth_tooth(std::span<const ToothFunctional> teeth) const;
 
-  /// Displacements of stations, columns (w, v), from wall forces (columns radial, circumferential; N) and tooth forces
-  /// (towards larger φ; N).
+  /// Displacements of stations, columns (w, v), from wall forces (columns radial, circumferential; N) and
+  /// tooth forces (towards larger φ; N).
   Eigen::MatrixX2d wall_displacement(std::span<const WallStation> at, std::span<const WallStation> loaded,
                                      const Eigen::MatrixX2d& wall_force,
                                      std::span<const ToothFunctional> teeth,
@@ -86,7 +89,8 @@ public:
                                      const Eigen::MatrixX2d& wall_force) const;
 
   /// Displacement of the neutral surface under tooth centres at axial position z, from wall and tooth forces:
-  /// columns radial, circumferential [mm], rotation about the axis, meridian tilt [rad]; one line per sector given.
+  /// columns radial, circumferential [mm], rotation about the axis, meridian tilt [rad]; one line per sector
+  /// given.
   Eigen::MatrixX4d section(std::span<const int> at_sectors, double z_mm, std::span<const WallStation> loaded,
                            const Eigen::MatrixX2d& wall_force, std::span<const ToothFunctional> teeth,
                            const Eigen::VectorXd& tooth_force) const;
@@ -115,7 +119,8 @@ private:
 /// normal · (radial, circumferential) of each station, from wall_components_of_teeth().
 Eigen::MatrixXd along_normals(const Eigen::MatrixX2d& normal, const Eigen::MatrixXd& components);
 
-/// Lagrange weights on the (up to four) nodes nearest to x; exact where x is a node. nodes ascending, at least one.
+/// Lagrange weights on the (up to four) nodes nearest to x; exact where x is a node. nodes ascending, at
+/// least one.
 std::vector<std::pair<int, double>> lagrange_weights(std::span<const double> nodes, double x);
 
 } // namespace strainwave

@@ -1,15 +1,16 @@
 #pragma once
-// The exact state of a contact whose closed sets are known: teeth t with forces F, wall stations with forces p along the normals
-// n of the rigid surface at the displaced wall,
+// The exact state of a contact whose closed sets are known: teeth t with forces F, wall stations with forces
+// p along the normals n of the rigid surface at the displaced wall,
 //
 //     wall    gap(u) = 0 exactly            u = G n(u) p − G_wt F
 //     teeth   q + G_tt F − G_tw n(u) p − r θ = 0
 //     and  r · F = torque, or θ given.
 //
-// An LCP with the normals of an earlier state comes near; what is left is of second order in the gap but of first order in the
-// direction of the forces. Here the normals follow the displacement in every step, with one Cholesky factor of the LCP's
-// closed set for all of them. The steps contract by force × curvature × compliance, some 1e-3, so about five of them end at
-// rounding: a hundredth of the work of as many contact problems, and gap and normals agree to 1e-14.
+// An LCP with the normals of an earlier state comes near; what is left is of second order in the gap but of
+// first order in the direction of the forces. Here the normals follow the displacement in every step, with
+// one Cholesky factor of the LCP's closed set for all of them. The steps contract by force × curvature ×
+// compliance, some 1e-3, so about five of them end at rounding: a hundredth of the work of as many contact
+// problems, and gap and normals agree to 1e-14.
 
 #include "strainwave/model/contact/load_problem.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
-// The loaded pair as the numbers that any solver can read: for checks by other programs, for global solvers (bench/shared_flank.py).
+// The loaded pair as the numbers that any solver can read: for checks by other programs, for global solvers
+// (bench/shared_flank.py).
 //
 // HDF5, a group for each meshing phase ("phase_0", …), units in the attribute "units":
 //

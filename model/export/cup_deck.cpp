@@ -1,8 +1,8 @@
 #include "strainwave/model/export/cup_deck.hpp"
 
 #include "strainwave/model/flexspline/calculix.hpp"
-#include "strainwave/model/flexspline/responses.hpp"
 #include "strainwave/model/flexspline/response_request.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
 
 #include <fmt/format.h>
 

@@ -2,10 +2,10 @@
 // A CalculiX deck of the whole cup: the same mesh, material and loads as the program's own finite elements,
 // so that another program can be asked the same question. One static step for each load.
 
-#include "strainwave/model/flexspline/functionals.hpp"
-#include "strainwave/model/loading/contact_forces.hpp"
-#include "strainwave/model/gear/gear.hpp"
 #include "strainwave/common/core/outcome.hpp"
+#include "strainwave/model/flexspline/functionals.hpp"
+#include "strainwave/model/gear/gear.hpp"
+#include "strainwave/model/loading/contact_forces.hpp"
 
 #include <iosfwd>
 #include <string>

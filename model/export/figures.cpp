@@ -143,13 +143,15 @@ std::vector<Figure> load_figures(const ForwardResult& result) {
                                angle_label, number(near.lo), number(near.hi), force_plot.command());
   Figure pressure{.name = "contact-pressure", .data = {}, .drawing = {}};
   auto pressure_out = std::back_inserter(pressure.data);
-  fmt::format_to(pressure_out, "# {}: largest contact pressure of each tooth of one lobe; one block for each load\n",
+  fmt::format_to(pressure_out,
+                 "# {}: largest contact pressure of each tooth of one lobe; one block for each load\n",
                  result.gear);
   Plot pressure_plot(pressure.name);
   for (std::size_t k = 0; k < result.load.size(); ++k) {
     const LoadResult& load = result.load[k];
-    fmt::format_to(pressure_out, "{}# torque {} N.m, {}\n# tooth  phi [deg]  pressure [MPa]\n", k == 0 ? "" : "\n\n",
-                   number(load.torque_nm), load.direction == Direction::coast ? "coast" : "drive");
+    fmt::format_to(pressure_out, "{}# torque {} N.m, {}\n# tooth  phi [deg]  pressure [MPa]\n",
+                   k == 0 ? "" : "\n\n", number(load.torque_nm),
+                   load.direction == Direction::coast ? "coast" : "drive");
     for (std::size_t i = 0; i < load.tooth.size(); ++i)
       fmt::format_to(pressure_out, "{} {} {}\n", load.tooth[i], number(load.phi_deg[i]),
                      number(load.pressure_mpa[i]));

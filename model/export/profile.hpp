@@ -11,8 +11,8 @@
 // (the fillets are not part of the model). Outlines run counter-clockwise:
 //   coast flank outwards → outer arc → drive flank inwards → inner arc.
 
-#include "strainwave/model/gear/gear.hpp"
 #include "strainwave/common/core/outcome.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,7 @@
 #pragma once
-// A forward result as an HDF5 file: one dataset per quantity, its unit in the attribute "units", the gear file it came
-// from in /config. Written beside the target and renamed into place, so that a reader never sees half a file.
+// A forward result as an HDF5 file: one dataset per quantity, its unit in the attribute "units", the gear
+// file it came from in /config. Written beside the target and renamed into place, so that a reader never sees
+// half a file.
 //
 //   /config (text)  /version (text)  /status (text)  /message (text)  /fidelity (text)
 //   /wave_generator/*  /backlash/*  /assembly/*  /compliance/{tooth, matrix}  /stiffness/*  /certificate/*

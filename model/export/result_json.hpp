@@ -1,5 +1,6 @@
 #pragma once
-// A forward result as the JSON object of `analyze --json`: keys and units as docs/results.md lists them; NaN becomes null.
+// A forward result as the JSON object of `analyze --json`: keys and units as docs/results.md lists them; NaN
+// becomes null.
 
 #include "strainwave/model/results/result.hpp"
 

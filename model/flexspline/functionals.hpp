@@ -42,8 +42,8 @@ struct Hat {
 /// Hat number `index` of `count` ≥ 2 equidistant ones over [begin, end].
 Hat equidistant_hat(double begin, double end, int count, int index);
 
-/// Tractions of unit resultant on one flank of the tooth: a hat in radius times a hat in z. Directions are those of the
-/// frame (towards larger φ, outwards) on either flank.
+/// Tractions of unit resultant on one flank of the tooth: a hat in radius times a hat in z. Directions are
+/// those of the frame (towards larger φ, outwards) on either flank.
 struct DirectionPair {
   Functional circumferential, radial;
 };

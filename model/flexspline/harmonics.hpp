@@ -29,6 +29,7 @@ public:
 
   /// G_h of all functionals; any number of threads may call this at once.
   HarmonicResponse response(int harmonic) const;
+
 private:
   struct Wave {
     double cosine, sine; ///< of α = 2πh/N

@@ -45,7 +45,8 @@ public:
     face_end = static_cast<int>(z.size()) - 1;
     if (f.front_clearance_mm > 0.0) {
       const double row = f.face_width_mm / counts.along_face;
-      const int strips = static_cast<int>(std::clamp(std::round(f.front_clearance_mm / row), 1.0, most_strips));
+      const int strips =
+          static_cast<int>(std::clamp(std::round(f.front_clearance_mm / row), 1.0, most_strips));
       add_rows(strips, f.cup_length_mm, rim, Region::front);
     }
     heights = teeth ? counts.tooth_height : 0;
@@ -275,9 +276,11 @@ Outcome<SectorMesh> sector_mesh(const Flexspline& flexspline, const Mesh& counts
 }
 
 MeshSize mesh_size(const Flexspline& f, const Mesh& m, bool teeth) {
-  const double strips = std::clamp(std::round(f.front_clearance_mm * m.along_face / f.face_width_mm), 1.0, most_strips);
+  const double strips =
+      std::clamp(std::round(f.front_clearance_mm * m.along_face / f.face_width_mm), 1.0, most_strips);
   const double layers = m.through_thickness;
-  const double meridian = m.diaphragm + layers + m.along_wall + 1.0 + m.along_face + strips; // columns of `layers` elements
+  const double meridian =
+      m.diaphragm + layers + m.along_wall + 1.0 + m.along_face + strips; // columns of `layers` elements
   const double on_teeth = teeth ? static_cast<double>(m.along_face) * m.tooth_height : 0.0;
   // 8 nodes a quadrilateral, shared: 3nL + 2n + 2L + 1 on a strip of n × L
   return {.elements = (meridian * layers + on_teeth) * m.per_pitch,

@@ -18,8 +18,8 @@
 // mirror image in φ → −φ, which the cyclic solver uses. Where wall and rim differ in thickness, one extra row
 // of elements behind the face makes the step at 45°.
 
-#include "strainwave/model/gear/gear.hpp"
 #include "strainwave/common/core/outcome.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 #include <array>
 #include <cstddef>
@@ -85,7 +85,8 @@ struct SectorShape {
 Outcome<SectorMesh> sector_mesh(const Flexspline& flexspline, const Mesh& counts,
                                 const SectorShape& shape = {});
 
-/// Elements of a sector, and unknowns on one of its sides, by the counts alone: never less than what sector_mesh() makes.
+/// Elements of a sector, and unknowns on one of its sides, by the counts alone: never less than what
+/// sector_mesh() makes.
 struct MeshSize {
   double elements = 0.0, side_unknowns = 0.0;
 };

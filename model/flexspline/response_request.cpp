@@ -18,7 +18,8 @@ ResponseRequest response_request(const Gear& gear) {
   } else {
     request.flank_heights = std::min(request.flank_heights, 2 * gear.mesh.tooth_height + 1); // rows of nodes
   }
-  // whole multiples, so that disc edges that stood on a row of nodes still do: between rows the wall is held softer there
+  // whole multiples, so that disc edges that stood on a row of nodes still do: between rows the wall is held
+  // softer there
   const int rows = gear.mesh.along_face;
   request.mesh.along_face = rows * std::max(1, (gear.contact.face_slices / 2 + rows - 1) / rows);
   return request;
@@ -27,6 +28,5 @@ ResponseRequest response_request(const Gear& gear) {
 double row_spacing_mm(const Gear& gear) {
   return gear.flexspline.face_width_mm / response_request(gear).mesh.along_face;
 }
-
 
 } // namespace strainwave

@@ -1,6 +1,6 @@
 #pragma once
-// What the finite elements read of a gear: cup, material, mesh and where the flank is loaded. Nothing of the wave generator,
-// so no change of it makes them run again.
+// What the finite elements read of a gear: cup, material, mesh and where the flank is loaded. Nothing of the
+// wave generator, so no change of it makes them run again.
 
 #include "strainwave/model/flexspline/responses.hpp"
 #include "strainwave/model/gear/gear.hpp"

@@ -118,7 +118,8 @@ constexpr struct {
              {"section_z", "mm", &UnitResponses::section_z_mm},
              {"responses", "mm/N", &UnitResponses::data}};
 
-/// What is no list: sectors, reciprocity error, discretisation estimate, both flanks or the drive flank alone.
+/// What is no list: sectors, reciprocity error, discretisation estimate, both flanks or the drive flank
+/// alone.
 std::vector<double> single_numbers(const UnitResponses& responses) {
   return {static_cast<double>(responses.sectors), responses.reciprocity_error,
           responses.discretisation_estimate, responses.both_flanks ? 1.0 : 0.0};
@@ -169,10 +170,10 @@ std::vector<std::uint64_t> response_key(const ResponseRequest& r) {
                              f.cup_length_mm, f.face_width_mm, f.front_clearance_mm, f.diaphragm_thickness_mm,
                              f.boss_radius_mm, r.material.youngs_modulus_mpa, r.material.poisson_ratio})
     real(value);
-  for (const int value : {f.teeth, r.mesh.per_pitch, r.mesh.along_face, r.mesh.along_wall, r.mesh.diaphragm,
-                          r.mesh.tooth_height, r.mesh.through_thickness, r.teeth ? 1 : 0, r.sectors,
-                          r.flank_heights, r.face_slices, r.both_flanks ? 1 : 0, r.sections ? 1 : 0,
-                          r.estimate ? 1 : 0})
+  for (const int value :
+       {f.teeth, r.mesh.per_pitch, r.mesh.along_face, r.mesh.along_wall, r.mesh.diaphragm,
+        r.mesh.tooth_height, r.mesh.through_thickness, r.teeth ? 1 : 0, r.sectors, r.flank_heights,
+        r.face_slices, r.both_flanks ? 1 : 0, r.sections ? 1 : 0, r.estimate ? 1 : 0})
     whole(value);
   list(r.wall_offset);
   list(r.wall_z_mm);

@@ -1,7 +1,7 @@
 #include "strainwave/model/flexspline/responses.hpp"
 
-#include "strainwave/model/flexspline/cyclic.hpp"
 #include "strainwave/common/core/memory.hpp"
+#include "strainwave/model/flexspline/cyclic.hpp"
 #include "strainwave/model/flexspline/sparse.hpp"
 
 #include <algorithm>
@@ -81,7 +81,8 @@ Failure ill_conditioned(const ResponseRequest& r) {
       {"flexspline.diaphragm_thickness_mm", f.diaphragm_thickness_mm, thin(f.diaphragm_thickness_mm)},
       {"flexspline.boss_radius_mm", f.boss_radius_mm, thin(f.boss_radius_mm)},
       {"flexspline.face_width_mm", f.face_width_mm, thin(f.face_width_mm)},
-      {"flexspline.front_clearance_mm", f.front_clearance_mm, f.front_clearance_mm > 0.0 ? thin(f.front_clearance_mm) : 0.0},
+      {"flexspline.front_clearance_mm", f.front_clearance_mm,
+       f.front_clearance_mm > 0.0 ? thin(f.front_clearance_mm) : 0.0},
       {"flexspline.cup_length_mm", f.cup_length_mm, std::pow(f.cup_length_mm / radius, 3)}};
   const Suspect& worst =
       *std::max_element(std::begin(suspects), std::end(suspects),
@@ -94,13 +95,14 @@ Failure ill_conditioned(const ResponseRequest& r) {
                   worst.name, worst.value, radius)};
 }
 
-/// Memory that a solve takes at its peak, bytes, by the sizes of its largest arrays (element triplets and the sparse matrix
-/// made of them; the condensed sector and the harmonics; spectrum and responses).
+/// Memory that a solve takes at its peak, bytes, by the sizes of its largest arrays (element triplets and the
+/// sparse matrix made of them; the condensed sector and the harmonics; spectrum and responses).
 double memory_bytes(const ResponseRequest& r, int threads) {
   const MeshSize size = mesh_size(r.flexspline, r.mesh, r.teeth);
   const double rows = r.wall_z_mm.empty() ? r.mesh.along_face + 1.0 : static_cast<double>(r.wall_z_mm.size());
   const double flank = r.teeth ? (r.both_flanks ? 4.0 : 2.0) * r.flank_heights * r.face_slices : 0.0;
-  const double functionals = flank + 2.0 * rows * static_cast<double>(r.wall_offset.size()) + (r.sections ? 4.0 * rows : 0.0);
+  const double functionals =
+      flank + 2.0 * rows * static_cast<double>(r.wall_offset.size()) + (r.sections ? 4.0 * rows : 0.0);
   const double sectors = r.sectors > 0 ? r.sectors : r.flexspline.teeth;
   const double side = size.side_unknowns, square = functionals * functionals;
   const double triplets = 60.0 * 61.0 / 2.0 * size.elements * 16.0;
@@ -136,8 +138,8 @@ void add_sections(const ResponseRequest& r, const SectorMesh& mesh, ResponseFunc
   }
 }
 
-/// The mean of both sides of Maxwell and Betti's theorem for each pair: contact takes its displacements and its matrix from
-/// either side, and they must be the same numbers.
+/// The mean of both sides of Maxwell and Betti's theorem for each pair: contact takes its displacements and
+/// its matrix from either side, and they must be the same numbers.
 void make_reciprocal(UnitResponses& u) {
   const auto n = static_cast<std::size_t>(u.count());
   const auto at = [&](int k, std::size_t a, std::size_t b) -> double& {
@@ -227,7 +229,8 @@ ResponseFunctionals response_functionals(const ResponseRequest& r, const SectorM
 Outcome<UnitResponses> unit_responses(const ResponseRequest& request, int threads) {
   if (const auto failure = flaw(request))
     return *failure;
-  const int crew = threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int crew =
+      threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   require_memory(memory_bytes(request, crew),
                  fmt::format("the finite elements of the flexspline ({:.0f} a tooth pitch, {} pitches)",
                              mesh_size(request.flexspline, request.mesh, request.teeth).elements,

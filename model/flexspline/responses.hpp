@@ -20,11 +20,11 @@
 // their largest. A single layer through the thickness cannot be halved, so the estimate does not see that
 // part.
 
+#include "strainwave/common/core/outcome.hpp"
 #include "strainwave/model/flexspline/functionals.hpp"
 #include "strainwave/model/flexspline/mesh.hpp"
 #include "strainwave/model/flexspline/unit_responses.hpp"
 #include "strainwave/model/gear/gear.hpp"
-#include "strainwave/common/core/outcome.hpp"
 
 #include <vector>
 

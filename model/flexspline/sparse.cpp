@@ -1,7 +1,7 @@
 #include "strainwave/model/flexspline/sparse.hpp"
 
-#include "strainwave/model/flexspline/blas.hpp"
 #include "strainwave/common/core/memory.hpp"
+#include "strainwave/model/flexspline/blas.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,8 @@ struct SparseCholesky::Content {
     if (state.status == CHOLMOD_OUT_OF_MEMORY)
       throw std::bad_alloc();
     if (state.status == CHOLMOD_TOO_LARGE)
-      throw OutOfMemory("the factor of the stiffness matrix has more than 2^31 numbers; take a coarser [mesh]");
+      throw OutOfMemory(
+          "the factor of the stiffness matrix has more than 2^31 numbers; take a coarser [mesh]");
     if (state.status == CHOLMOD_NOT_POSDEF || (factor != nullptr && factor->minor < factor->n))
       throw NotPositiveStiffness(fmt::format("pivot {} of {} of the sector's stiffness is not positive",
                                              factor ? factor->minor : 0, factor ? factor->n : 0));

@@ -1,14 +1,14 @@
 #pragma once
-// One analysis on its way through the stages of the forward model, and what analyses share. Of forward.cpp and
-// analysis_cup.cpp only; others use forward.hpp.
+// One analysis on its way through the stages of the forward model, and what analyses share. Of forward.cpp
+// and analysis_cup.cpp only; others use forward.hpp.
 
-#include "strainwave/model/loading/contact_forces.hpp"
-#include "strainwave/model/meshing/flank_points.hpp"
+#include "strainwave/common/threads/stage_memory.hpp"
 #include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/forward/gradient.hpp"
+#include "strainwave/model/loading/contact_forces.hpp"
 #include "strainwave/model/loading/load_cases.hpp"
 #include "strainwave/model/loading/phase_problem.hpp"
-#include "strainwave/common/threads/stage_memory.hpp"
+#include "strainwave/model/meshing/flank_points.hpp"
 #include "strainwave/model/tooth/backlash.hpp"
 
 #include <chrono>
@@ -78,7 +78,8 @@ public:
 private:
   Outcome<LoadStarts> unguarded_load_starts();
   Outcome<ContactStates> unguarded_contact_states();
-  /// A compliance that is not positive definite is one that rounding has eaten up: data of this gear, not our bug.
+  /// A compliance that is not positive definite is one that rounding has eaten up: data of this gear, not our
+  /// bug.
   Failure ill_conditioned(const NotPositiveDefinite& error) const;
   std::optional<Failure> guarded_stages();
   std::optional<Failure> stages();
@@ -117,7 +118,7 @@ private:
   std::shared_ptr<const Ring> ring_;
   std::optional<WaveGeneratorSurface> surface_;
   double disc_shift_ = 0.0;
-  std::vector<FlankPair> flanks_;                       ///< one for each slice
+  std::vector<FlankPair> flanks_;                        ///< one for each slice
   std::map<double, std::vector<LoadedPoint>> points_of_; ///< drive, by phase
   std::map<double, std::shared_ptr<const PhaseModel>> phases_;
   bool keep_ = false;

@@ -1,9 +1,10 @@
-// The stages of an analysis that know the cup: finite elements, assembly on the wave generator, compliance of the teeth.
+// The stages of an analysis that know the cup: finite elements, assembly on the wave generator, compliance of
+// the teeth.
 
 #include "strainwave/model/forward/analysis.hpp"
 
-#include "strainwave/model/flexspline/response_store.hpp"
 #include "strainwave/model/flexspline/response_request.hpp"
+#include "strainwave/model/flexspline/response_store.hpp"
 #include "strainwave/model/meshing/gear_surface.hpp"
 
 #include <fmt/format.h>
@@ -16,8 +17,9 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-/// D is symmetric by construction, so its own transpose proves nothing. Three of its columns (first, middle, last tooth) are
-/// found again from a unit force and the reaction of the held wall, and compared with the rows; relative.
+/// D is symmetric by construction, so its own transpose proves nothing. Three of its columns (first, middle,
+/// last tooth) are found again from a unit force and the reaction of the held wall, and compared with the
+/// rows; relative.
 double reciprocity_error(const RingCompliance& ring, const AssembledState& assembled,
                          const std::vector<LoadedPoint>& teeth, const Eigen::MatrixXd& d) {
   const std::vector<ToothFunctional> functionals = tooth_functionals(ring, teeth);

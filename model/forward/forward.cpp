@@ -1,7 +1,7 @@
 #include "strainwave/model/forward/forward.hpp"
 
-#include "strainwave/model/forward/analysis.hpp"
 #include "strainwave/model/flexspline/response_request.hpp"
+#include "strainwave/model/forward/analysis.hpp"
 #include "strainwave/model/forward/inputs.hpp"
 #include "strainwave/model/gear/fields.hpp"
 #include "strainwave/model/kinematics/rim_strain.hpp"
@@ -292,7 +292,8 @@ Outcome<std::vector<LoadedPoint>> Analysis::loaded_points(double phase) {
 }
 
 Outcome<std::vector<LoadedPoint>> Analysis::coast_points(double phase) {
-  // Phase n − j mirrors phase j of n; 1 − j/n would miss the other's bits, and with them what it has computed.
+  // Phase n − j mirrors phase j of n; 1 − j/n would miss the other's bits, and with them what it has
+  // computed.
   const int phases = gear_.load.phases;
   const double j = std::round(phase * phases);
   const double mirrored = phase == 0.0 ? 0.0 : j / phases == phase ? (phases - j) / phases : 1.0 - phase;

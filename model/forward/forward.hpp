@@ -5,8 +5,8 @@
 //     flexspline (finite elements, on disk by content) ────┤
 //                → assembly → compliance ──────────────────┴→ load → responses
 //
-// One ForwardModel may be used by several threads; analyses share what they have computed. Results depend on the gear
-// alone, never on what was analysed before.
+// One ForwardModel may be used by several threads; analyses share what they have computed. Results depend on
+// the gear alone, never on what was analysed before.
 
 #include "strainwave/model/results/result.hpp"
 
@@ -37,20 +37,20 @@ public:
   ForwardModel(const ForwardModel&) = delete;
   ForwardModel& operator=(const ForwardModel&) = delete;
 
-  /// Never throws for a gear that cannot be computed: status and message say why. Throws std::system_error and
-  /// std::bad_alloc for disk and memory, FieldError for a faulty wave_generator.table_file.
-  /// `starts`: of a nominal gear, fixed by a study's plan; they save work and change no result.
+  /// Never throws for a gear that cannot be computed: status and message say why. Throws std::system_error
+  /// and std::bad_alloc for disk and memory, FieldError for a faulty wave_generator.table_file. `starts`: of
+  /// a nominal gear, fixed by a study's plan; they save work and change no result.
   ForwardResult analyze(const Gear& gear, Want want = Want::load, const LoadStarts* starts = nullptr);
 
   /// Where the loads of a gear's neighbours may start: its own solutions, drive side, every phase.
   Outcome<LoadStarts> load_starts(const Gear& gear);
 
-  /// The same numbers for Want::load without what only people look at (backlash by tooth, compliance of the teeth); where the
-  /// status is ok, `solution` is what the derivatives can be had from.
+  /// The same numbers for Want::load without what only people look at (backlash by tooth, compliance of the
+  /// teeth); where the status is ok, `solution` is what the derivatives can be had from.
   ForwardResult analyze(const Gear& gear, std::shared_ptr<const ForwardSolution>& solution);
 
-  /// The contact forces of the assembled cup and of every load of the gear, at phase 0 in the drive direction; reuses
-  /// what analyses have computed.
+  /// The contact forces of the assembled cup and of every load of the gear, at phase 0 in the drive
+  /// direction; reuses what analyses have computed.
   Outcome<ContactStates> contact_states(const Gear& gear);
 
   /// The contact problem of all drive points at every phase of the gear's [load].

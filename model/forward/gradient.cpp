@@ -1,10 +1,10 @@
 #include "strainwave/model/forward/gradient.hpp"
 
 #include "strainwave/model/forward/analysis.hpp"
-#include "strainwave/model/slopes/gradient_phase.hpp"
-#include "strainwave/model/meshing/pressure.hpp"
 #include "strainwave/model/gear/fields.hpp"
 #include "strainwave/model/kinematics/rim_strain.hpp"
+#include "strainwave/model/meshing/pressure.hpp"
+#include "strainwave/model/slopes/gradient_phase.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -41,7 +41,8 @@ Eigen::MatrixXd by_tooth(const std::vector<LoadedPoint>& points, const Eigen::Ma
   return sum;
 }
 
-/// Slopes of the least backlash over φ: at a stationary φ, or at an end of the window, φ itself does not matter.
+/// Slopes of the least backlash over φ: at a stationary φ, or at an end of the window, φ itself does not
+/// matter.
 Eigen::VectorXd least_backlash_slopes(const Gear& gear, const NeutralCurve& curve,
                                       const std::vector<std::string>& parameters, double phi_rad) {
   const auto pair = FlankPair::make(gear);
@@ -71,7 +72,8 @@ std::pair<Eigen::VectorXd, double> peak_pressure(FlankPressure& pressure, double
           peak->pressure_mpa};
 }
 
-/// Of the rim's bending strain: central differences of the curve, whose strain is smooth in its own two numbers.
+/// Of the rim's bending strain: central differences of the curve, whose strain is smooth in its own two
+/// numbers.
 Eigen::VectorXd rim_strain_slopes(const Gear& gear, const NeutralCurve& curve,
                                   const std::vector<std::string>& parameters) {
   Eigen::VectorXd slopes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
@@ -93,8 +95,8 @@ Eigen::VectorXd rim_strain_slopes(const Gear& gear, const NeutralCurve& curve,
   return slopes;
 }
 
-/// The discs follow the parameters so that the radial displacement in the reference section stays u0. radial: its slopes by
-/// column of the surface, the shift last.
+/// The discs follow the parameters so that the radial displacement in the reference section stays u0. radial:
+/// its slopes by column of the surface, the shift last.
 std::vector<double> shift_slopes(const SlopeInputs& inputs, std::vector<double> radial) {
   const double by_shift = radial.back();
   radial.pop_back();

@@ -1,5 +1,6 @@
 #pragma once
-// What each stage of the forward model reads of a gear, and nothing else: keys and inputs made from the file's numbers.
+// What each stage of the forward model reads of a gear, and nothing else: keys and inputs made from the
+// file's numbers.
 
 #include "strainwave/common/threads/stage_memory.hpp"
 #include "strainwave/model/gear/gear.hpp"

@@ -1,8 +1,8 @@
 #include "strainwave/model/forward/ring_pair.hpp"
 
+#include "strainwave/model/flexspline/response_request.hpp"
 #include "strainwave/model/flexspline/response_store.hpp"
 #include "strainwave/model/meshing/flank_points.hpp"
-#include "strainwave/model/flexspline/response_request.hpp"
 #include "strainwave/model/meshing/gear_surface.hpp"
 #include "strainwave/model/tooth/backlash.hpp"
 

@@ -1,13 +1,14 @@
 #pragma once
-// What studies of many nearly equal gears need of the nominal one: the whole ring, both lobes with their own teeth, at
-// meshing phase 0, and its contact linearised about a loaded state (load_tangent.hpp).
+// What studies of many nearly equal gears need of the nominal one: the whole ring, both lobes with their own
+// teeth, at meshing phase 0, and its contact linearised about a loaded state (load_tangent.hpp).
 //
 //     auto mesh = nominal_mesh(model, gear);        // finite elements and assembly, once
 //     auto load = nominal_load(*mesh, 7.0);         // what sampled_contact.hpp starts from
-//     auto discs = mesh_at_discs(*mesh, u0, e);     // the same gear on other discs: poses and assembled displacement
+//     auto discs = mesh_at_discs(*mesh, u0, e);     // the same gear on other discs: poses and assembled
+//     displacement
 //
-// One contact point for each tooth. Teeth: material angles in (−90°, 270°], those of contact.window_deg and contact.lobes
-// that overlap their space.
+// One contact point for each tooth. Teeth: material angles in (−90°, 270°], those of contact.window_deg and
+// contact.lobes that overlap their space.
 
 #include "strainwave/model/contact/load_tangent.hpp"
 #include "strainwave/model/forward/forward.hpp"
@@ -38,8 +39,8 @@ struct NominalMesh {
 /// Failures: those of the forward model, not_available for more than one contact point per tooth.
 Outcome<NominalMesh> nominal_mesh(ForwardModel& model, const Gear& gear, const ForwardOptions& options = {});
 
-/// Contact of the mesh about its solution at this torque (> 0, all lobes, N·m) or rotation (rad). Fidelity linear:
-/// teeth alone.
+/// Contact of the mesh about its solution at this torque (> 0, all lobes, N·m) or rotation (rad). Fidelity
+/// linear: teeth alone.
 Outcome<LoadTangent> nominal_load(const NominalMesh& mesh, double value, Control control = Control::torque);
 
 /// The same gear assembled on discs with other numbers.

@@ -1,6 +1,7 @@
 #pragma once
-// Everything a user can say about a strain wave gear, as plain structs. Units are in the names; angles end in _deg.
-// The table of these fields (paths, units, defaults, ranges, sentences) is fields.hpp; nothing here knows a file format.
+// Everything a user can say about a strain wave gear, as plain structs. Units are in the names; angles end in
+// _deg. The table of these fields (paths, units, defaults, ranges, sentences) is fields.hpp; nothing here
+// knows a file format.
 
 #include <optional>
 #include <string>
@@ -14,8 +15,8 @@ struct Material {
 };
 
 /// The cup. Axial coordinate z: 0 at the diaphragm's mid-plane, cup_length_mm at the open end.
-/// The rim (and the wall) has its inner surface at neutral_radius − rim_thickness/2 and the toothed face lies at
-/// z ∈ [cup_length − front_clearance − face_width, cup_length − front_clearance].
+/// The rim (and the wall) has its inner surface at neutral_radius − rim_thickness/2 and the toothed face lies
+/// at z ∈ [cup_length − front_clearance − face_width, cup_length − front_clearance].
 struct Flexspline {
   double module_mm = 0.0;
   double pressure_angle_deg = 20.0;
@@ -44,17 +45,18 @@ enum class WaveGeneratorShape { two_disc, two_disc_exact, four_force, ellipse, c
 
 struct WaveGenerator {
   WaveGeneratorShape shape = WaveGeneratorShape::two_disc_exact;
-  double max_radial_deformation_mm = 0.0;       ///< u0
-  std::optional<double> eccentricity_mm;        ///< e of each disc (two_disc, two_disc_exact)
-  std::optional<double> wrap_angle_deg;         ///< instead of e, or agreeing with it
-  double contact_width_mm = 0.0;                ///< along the axis, centred on the face
-  double disc_taper_um = 0.0;                   ///< cone of the discs over contact_width_mm
-  std::optional<double> force_angle_deg;        ///< β of four_force
-  std::string table_file;                       ///< table: two columns, angle in degrees, u in mm; absolute when loaded
+  double max_radial_deformation_mm = 0.0; ///< u0
+  std::optional<double> eccentricity_mm;  ///< e of each disc (two_disc, two_disc_exact)
+  std::optional<double> wrap_angle_deg;   ///< instead of e, or agreeing with it
+  double contact_width_mm = 0.0;          ///< along the axis, centred on the face
+  double disc_taper_um = 0.0;             ///< cone of the discs over contact_width_mm
+  std::optional<double> force_angle_deg;  ///< β of four_force
+  std::string table_file; ///< table: two columns, angle in degrees, u in mm; absolute when loaded
 };
 
-/// Material removed from both flanks of every tooth of one member, along the flank normal. Flank coordinate h: 0 at the
-/// flexspline's root circle, 1 at its tip circle (circular spline: 0 at its tip circle, 1 at its root), linear in radius.
+/// Material removed from both flanks of every tooth of one member, along the flank normal. Flank coordinate
+/// h: 0 at the flexspline's root circle, 1 at its tip circle (circular spline: 0 at its tip circle, 1 at its
+/// root), linear in radius.
 struct FlankModification {
   double tip_relief_um = 0.0;
   double tip_relief_start = 0.5;
@@ -95,8 +97,8 @@ struct Contact {
   GapModel gaps = GapModel::kinematic;
   std::optional<double> reference_section_mm;
 
-  /// The force's direction where the file says nothing: circumferential for the source text's single point of a tooth, along
-  /// the flank normal over the whole flank.
+  /// The force's direction where the file says nothing: circumferential for the source text's single point of
+  /// a tooth, along the flank normal over the whole flank.
   ForceDirection direction_of_force() const {
     return force_direction.value_or(flank_points == 1 && face_slices == 1 ? ForceDirection::circumferential
                                                                           : ForceDirection::flank_normal);
@@ -135,8 +137,8 @@ struct Gear {
   Load load;
 };
 
-/// The seed gear of the project (module 0.2 mm, 140/142 teeth, two discs): what `strainwave example` prints, for tests and
-/// benches. The assumed values are named in studies/gallery/seed.toml.
+/// The seed gear of the project (module 0.2 mm, 140/142 teeth, two discs): what `strainwave example` prints,
+/// for tests and benches. The assumed values are named in studies/gallery/seed.toml.
 Gear seed_gear();
 
 } // namespace strainwave

@@ -57,7 +57,8 @@ MadeShape make_two_disc(const WaveGenerator& generator, double radius) {
 
 MadeShape make_four_force(const WaveGenerator& generator, double radius) {
   if (!generator.force_angle_deg)
-    return Failure{Status::contradiction, "four forces need wave_generator.force_angle_deg, from 0 to below 90 degrees"};
+    return Failure{Status::contradiction,
+                   "four forces need wave_generator.force_angle_deg, from 0 to below 90 degrees"};
   const double beta_deg = *generator.force_angle_deg, beta = beta_deg * pi / 180.0;
   if (!(beta >= 0.0) || !(beta <= quarter))
     return Failure{Status::contradiction,

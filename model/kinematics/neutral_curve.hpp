@@ -15,8 +15,8 @@
 //     phi1 - phi = -6.412312252e-3    rho - r_m = 0.118293683 mm    theta_n = 2.180548513e-2
 // Lengths in mm, angles in rad. Exact to rounding; a pose costs 0.04 (exact) to 0.2 microseconds.
 
-#include "strainwave/model/gear/gear.hpp"
 #include "strainwave/common/core/outcome.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 #include <array>
 #include <memory>

@@ -38,9 +38,10 @@ std::ifstream open_table(const std::string& file) {
   std::error_code ignored;
   const std::filesystem::file_type type = std::filesystem::status(file, ignored).type();
   if (type == std::filesystem::file_type::not_found)
-    fail(fmt::format("{}: there is no such file; expected a table of the wave generator's shape, two columns: "
-                     "angle in degrees, radial deformation in mm",
-                     file));
+    fail(
+        fmt::format("{}: there is no such file; expected a table of the wave generator's shape, two columns: "
+                    "angle in degrees, radial deformation in mm",
+                    file));
   if (type == std::filesystem::file_type::directory)
     fail(fmt::format("{}: is a folder, not a table of the wave generator's shape", file));
   errno = 0;

@@ -12,8 +12,8 @@ namespace strainwave {
 
 class ShapeTable {
 public:
-  /// Throws FieldError of wave_generator.table_file, "file:line: what is wrong", and std::system_error when reading
-  /// is refused.
+  /// Throws FieldError of wave_generator.table_file, "file:line: what is wrong", and std::system_error when
+  /// reading is refused.
   static ShapeTable read(const std::string& file);
   /// Angles [rad] ascending from 0 to pi/2, displacements [mm]; at least two rows.
   ShapeTable(std::vector<double> angle_rad, std::vector<double> u_mm);

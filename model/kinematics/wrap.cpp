@@ -24,11 +24,12 @@ Failure singular(const std::string& what) {
 Outcome<double> wrap_from_ratio(double eccentricity, double u0) {
   const double ratio = eccentricity / u0;
   if (!(ratio > ratio_at_right_angle && ratio < ratio_at_zero))
-    return Failure{Status::no_wrap, fmt::format("eccentricity_mm {} / max_radial_deformation_mm {} = {:.5g}: "
-                                                "the discs wrap the flexspline only for "
-                                                "{:.3f} < e/u0 < {:.3f}, here {:.4g} mm < e < {:.4g} mm",
-                                                eccentricity, u0, std::min(ratio, 1e300), ratio_at_right_angle, ratio_at_zero,
-                                                ratio_at_right_angle * u0, ratio_at_zero * u0)};
+    return Failure{Status::no_wrap,
+                   fmt::format("eccentricity_mm {} / max_radial_deformation_mm {} = {:.5g}: "
+                               "the discs wrap the flexspline only for "
+                               "{:.3f} < e/u0 < {:.3f}, here {:.4g} mm < e < {:.4g} mm",
+                               eccentricity, u0, std::min(ratio, 1e300), ratio_at_right_angle, ratio_at_zero,
+                               ratio_at_right_angle * u0, ratio_at_zero * u0)};
   const auto excess = [&](double gamma) { return eccentricity_ratio(gamma) - ratio; };
   const double at_zero = excess(0.0), at_end = excess(largest_wrap_rad);
   if (at_zero <= 0.0)
@@ -76,10 +77,11 @@ Outcome<Wrap> first_order_wrap(const WaveGenerator& generator) {
       return singular(fmt::format("wrap_angle_deg {}", *generator.wrap_angle_deg));
     return Wrap{gamma, u0 * eccentricity_ratio(gamma)};
   }
-  return Failure{Status::contradiction,
-                 fmt::format("two discs need either wave_generator.eccentricity_mm, between {:.4g} and {:.4g} mm for "
-                             "max_radial_deformation_mm {}, or wave_generator.wrap_angle_deg",
-                             ratio_at_right_angle * u0, ratio_at_zero * u0, u0)};
+  return Failure{
+      Status::contradiction,
+      fmt::format("two discs need either wave_generator.eccentricity_mm, between {:.4g} and {:.4g} mm for "
+                  "max_radial_deformation_mm {}, or wave_generator.wrap_angle_deg",
+                  ratio_at_right_angle * u0, ratio_at_zero * u0, u0)};
 }
 
 } // namespace strainwave

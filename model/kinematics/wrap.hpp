@@ -4,8 +4,8 @@
 // wrap exist. Towards 90 degrees the free arc shrinks to a kink and the shape's formula has its pole; angles
 // within half a degree of it are refused.
 
-#include "strainwave/model/gear/gear.hpp"
 #include "strainwave/common/core/outcome.hpp"
+#include "strainwave/model/gear/gear.hpp"
 #include "strainwave/model/kinematics/displacement.hpp"
 
 #include <numbers>

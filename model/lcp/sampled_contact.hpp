@@ -1,25 +1,26 @@
 #pragma once
-// Contact of many gears that differ from a nominal one in the gaps and lever arms of their teeth: exact, some microseconds
-// each.
+// Contact of many gears that differ from a nominal one in the gaps and lever arms of their teeth: exact, some
+// microseconds each.
 //
-// The problem is that of load_problem.hpp, gap = q − θ r + M z with teeth and wall stations, and M alike for all samples.
-// Once, M is pivoted on the wall stations 0 that carry in the nominal loaded state (Schur complement; 1: teeth and all
-// other stations):
+// The problem is that of load_problem.hpp, gap = q − θ r + M z with teeth and wall stations, and M alike for
+// all samples. Once, M is pivoted on the wall stations 0 that carry in the nominal loaded state (Schur
+// complement; 1: teeth and all other stations):
 //
-//     gap_1 = h_1 − θ r_1 + S z_1 + B gap_0        S = M_11 − M_10 M_00⁻¹ M_01,   B = M_10 M_00⁻¹,   C = M_00⁻¹
-//     p_0   = h_0         − Bᵀ z_1 + C gap_0       h_1 = q_1 − B q_0,             h_0 = −C q_0
+//     gap_1 = h_1 − θ r_1 + S z_1 + B gap_0        S = M_11 − M_10 M_00⁻¹ M_01,   B = M_10 M_00⁻¹,   C =
+//     M_00⁻¹ p_0   = h_0         − Bᵀ z_1 + C gap_0       h_1 = q_1 − B q_0,             h_0 = −C q_0
 //
-// In a sample the unknowns are then the forces of its closed teeth and of the few stations that have changed sides (a station
-// of 0 that lifts off has its gap as unknown): some 30 instead of 150, with the matrix [S B; Bᵀ −C] of signed_factor.hpp.
-// All forces and gaps, teeth and walls, are computed and have to have the right sign, so the result is the solution of the
-// whole problem. The active set changes block by block as in lcp.hpp and always starts from the nominal one; the last
-// system is solved on the final set in ascending order: no sample shapes the next. Should the blocks not end, ContactSolver
-// solves the whole problem.
+// In a sample the unknowns are then the forces of its closed teeth and of the few stations that have changed
+// sides (a station of 0 that lifts off has its gap as unknown): some 30 instead of 150, with the matrix [S B;
+// Bᵀ −C] of signed_factor.hpp. All forces and gaps, teeth and walls, are computed and have to have the right
+// sign, so the result is the solution of the whole problem. The active set changes block by block as in
+// lcp.hpp and always starts from the nominal one; the last system is solved on the final set in ascending
+// order: no sample shapes the next. Should the blocks not end, ContactSolver solves the whole problem.
 //
-// Reference: principal pivot transforms, Cottle, Pang, Stone, The Linear Complementarity Problem (1992), section 2.3.
+// Reference: principal pivot transforms, Cottle, Pang, Stone, The Linear Complementarity Problem (1992),
+// section 2.3.
 
-#include "strainwave/model/lcp/solver.hpp"
 #include "strainwave/model/lcp/signed_factor.hpp"
+#include "strainwave/model/lcp/solver.hpp"
 
 #include <optional>
 #include <span>
@@ -29,9 +30,10 @@ namespace strainwave {
 
 class SampledContact {
 public:
-  /// `problem`: the first `teeth` indices are teeth (r > 0), all others wall stations (r = 0); its q and r are the nominal
-  /// ones. `nominal`: its solution under the nominal load. `modes`: columns that a sample may add to q with amplitudes of
-  /// its own (n × modes; empty: none). Throws NotPositiveDefinite, std::invalid_argument for sizes.
+  /// `problem`: the first `teeth` indices are teeth (r > 0), all others wall stations (r = 0); its q and r
+  /// are the nominal ones. `nominal`: its solution under the nominal load. `modes`: columns that a sample may
+  /// add to q with amplitudes of its own (n × modes; empty: none). Throws NotPositiveDefinite,
+  /// std::invalid_argument for sizes.
   SampledContact(ContactProblem problem, int teeth, const ContactState& nominal,
                  const Eigen::MatrixXd& modes = {});
 

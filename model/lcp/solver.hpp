@@ -24,15 +24,15 @@
 //
 // With r of both signs a gear is free when a range of rotations leaves every index with r ≠ 0 without force
 // (first coast touch ≤ θ ≤ first drive touch), else it is wedged: forces of both signs are in balance at no
-// torque, at one rotation. There block steps at a torque may drop all that carry; the rotation is then found by a
-// bracketed Newton iteration on torque(θ), each value a solution at a rotation.
+// torque, at one rotation. There block steps at a torque may drop all that carry; the rotation is then found
+// by a bracketed Newton iteration on torque(θ), each value a solution at a rotation.
 //
 // The result is a fresh solve on the final closed set in ascending index order: its bits do not depend on the
 // first set that was supplied. Indices with force and gap both (nearly) zero are decided again from a start
 // that does not depend on it.
 
-#include "strainwave/model/lcp/factor.hpp"
 #include "strainwave/common/core/outcome.hpp"
+#include "strainwave/model/lcp/factor.hpp"
 
 #include <Eigen/Dense>
 
@@ -92,14 +92,14 @@ public:
                 const ContactOptions& options, ContactState& state);
 
   /// Solution at a torque r · z [N·mm]: the minimum of ½ zᵀMz + qᵀz with r · z = torque, z ≥ 0; θ is the
-  /// multiplier. Torque 0 means the take-up: the largest θ without load on an index with r > 0, or the rotation
-  /// of the balance when wedged. A torque below 0 needs an index with r < 0, else it is refused
+  /// multiplier. Torque 0 means the take-up: the largest θ without load on an index with r > 0, or the
+  /// rotation of the balance when wedged. A torque below 0 needs an index with r < 0, else it is refused
   /// (std::invalid_argument). Status::no_contact when no index has r > 0 (torque ≥ 0).
   Outcome<ContactState> solve_torque(const ContactProblem& problem, double torque, const ActiveSet& warm = {},
                                      const ContactOptions& options = {});
 
-  /// The rotation at which the first index with r > 0 touches, with the supports (r = 0) in equilibrium; may be
-  /// negative. Wedged: the rotation at no torque.
+  /// The rotation at which the first index with r > 0 touches, with the supports (r = 0) in equilibrium; may
+  /// be negative. Wedged: the rotation at no torque.
   Outcome<double> take_up(const ContactProblem& problem, const ContactOptions& options = {});
 
   /// Exact path from event to event (lcp_path.hpp).

@@ -13,8 +13,8 @@ const char* const nothing_carries =
     "no contact: no index of the contact problem has a radius, so no torque can act";
 } // namespace
 
-/// Equilibrium of the indices with r = 0 alone, and the rotations at which the first of the others touch (infinite
-/// when there are none); closed_ holds the supports.
+/// Equilibrium of the indices with r = 0 alone, and the rotations at which the first of the others touch
+/// (infinite when there are none); closed_ holds the supports.
 ContactSolver::Play ContactSolver::solve_supports(const ContactProblem& problem,
                                                   const ContactOptions& options) {
   mode_ = Mode::rotation;
@@ -37,9 +37,10 @@ ContactSolver::Play ContactSolver::solve_supports(const ContactProblem& problem,
   return play;
 }
 
-/// Torque mode with r of both signs: the root of torque(θ) = torque_, which never falls and is piecewise linear. Every
-/// value is a solution at a rotation; its closed set, at the torque, is the next rotation, or the solution when nobody
-/// wants to change sides. Newton steps that leave the bracket are replaced by its middle. Leaves set, x_ and gap_.
+/// Torque mode with r of both signs: the root of torque(θ) = torque_, which never falls and is piecewise
+/// linear. Every value is a solution at a rotation; its closed set, at the torque, is the next rotation, or
+/// the solution when nobody wants to change sides. Newton steps that leave the bracket are replaced by its
+/// middle. Leaves set, x_ and gap_.
 void ContactSolver::search_rotation(const ContactProblem& problem, const ContactOptions& options) {
   double below = -infinity, above = infinity; // torque(below) < torque_ < torque(above)
   const Play play = solve_supports(problem, options);

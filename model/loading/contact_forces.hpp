@@ -1,10 +1,10 @@
 #pragma once
-// The contact forces behind a forward result, phase 0, drive direction: for field solutions on the whole cup, decks and
-// pictures. The coast direction is the mirror image φ → −φ.
+// The contact forces behind a forward result, phase 0, drive direction: for field solutions on the whole cup,
+// decks and pictures. The coast direction is the mirror image φ → −φ.
 //
 // `forces` is complete for the whole ring: every force as a multiple of one functional of the unit responses
-// (unit_responses.hpp) on one sector, both lobes, rows and contact heights already shared out. Loading a cup with these
-// functionals must give back the displacements that the contact problem worked with.
+// (unit_responses.hpp) on one sector, both lobes, rows and contact heights already shared out. Loading a cup
+// with these functionals must give back the displacements that the contact problem worked with.
 
 #include "strainwave/model/contact/load_problem.hpp"
 #include "strainwave/model/flexspline/responses.hpp"
@@ -53,7 +53,8 @@ struct ContactStates {
   std::vector<std::string> warnings;
 };
 
-/// Assembled: wall_force are the assembly's own forces and there are no teeth. tooth_force: one for each tooth, N.
+/// Assembled: wall_force are the assembly's own forces and there are no teeth. tooth_force: one for each
+/// tooth, N.
 ContactForces contact_forces(std::string name, const RingCompliance& ring, const AssembledState& assembled,
                              const Eigen::MatrixX2d& wall_force, const std::vector<LoadedPoint>& teeth,
                              const std::vector<double>& tooth_force);

@@ -220,7 +220,8 @@ private:
     return std::nullopt;
   }
 
-  /// A phase at rest, once: whether flanks overlap at every rotation is plain from the gaps, how hard from a solution.
+  /// A phase at rest, once: whether flanks overlap at every rotation is plain from the gaps, how hard from a
+  /// solution.
   std::optional<Failure> rest(const PhaseModel& model, double phase) {
     if (!rested_.insert(phase).second)
       return std::nullopt;

@@ -1,9 +1,9 @@
 #pragma once
-// From phases to responses: every load of the gear at every meshing phase, the worst of them, transmission error,
-// stiffness and lost motion, and the certificate over all of it.
+// From phases to responses: every load of the gear at every meshing phase, the worst of them, transmission
+// error, stiffness and lost motion, and the certificate over all of it.
 //
-// Coast is the mirrored problem φ → −φ: phase s of the coast side is phase 1 − s of the drive side with tooth −1 − i for
-// tooth i (s = 0: phase 0 and tooth −i), so only drive problems are ever solved.
+// Coast is the mirrored problem φ → −φ: phase s of the coast side is phase 1 − s of the drive side with tooth
+// −1 − i for tooth i (s = 0: phase 0 and tooth −i), so only drive problems are ever solved.
 
 #include "strainwave/model/loading/phase_model.hpp"
 #include "strainwave/model/results/result.hpp"
@@ -31,7 +31,8 @@ struct SolvedLoad {
 };
 using LoadObserver = std::function<void(const SolvedLoad&)>;
 
-/// Fills load, stiffness and the contact part of the certificate of `result`; a Failure when a load has no solution.
+/// Fills load, stiffness and the contact part of the certificate of `result`; a Failure when a load has no
+/// solution.
 std::optional<Failure> solve_load_cases(const Gear& gear, const PhaseSource& phase_source,
                                         ForwardResult& result, const LoadObserver& observer = {});
 

@@ -28,8 +28,9 @@ MarchOptions steps_over(double range) {
   return options;
 }
 
-/// The source text's way to a torque: march the rotation a little past it, read the rotation off the polygon of accepted
-/// points, march there. `direct`, the direct solution, only bounds the march; below 0 the flanks interfere at rest.
+/// The source text's way to a torque: march the rotation a little past it, read the rotation off the polygon
+/// of accepted points, march there. `direct`, the direct solution, only bounds the march; below 0 the flanks
+/// interfere at rest.
 ContactState march_to_torque(const ContactProblem& problem, double torque, double direct,
                              ContactSolver& solver) {
   const MarchOptions options = steps_over(std::abs(direct));
@@ -224,7 +225,8 @@ Outcome<PhaseLoad> PhaseModel::solve(Control control, double value, ContactSolve
     load.rounds = round;
     std::vector<double> force(points_.size(), 0.0);
     std::vector<double> gap_um(points_.size(), 0.0);
-    // every point's gap from the forces: closed ones of the selection check the solver, the others must not penetrate
+    // every point's gap from the forces: closed ones of the selection check the solver, the others must not
+    // penetrate
     const Eigen::VectorXd gap = gaps(*selection, *solved);
     std::vector<std::uint8_t> inside(points_.size(), 0);
     for (std::size_t k = 0; k < selection->index.size(); ++k) {
@@ -329,7 +331,8 @@ Outcome<PhaseModel::Solved> PhaseModel::solve_selection(const Selection& selecti
 
 Eigen::VectorXd PhaseModel::gaps(const Selection& selection, const Solved& solved) const {
   const Eigen::VectorXd force = solved.state.force.head(selection.load.point_count);
-  // Wall forces beyond those of the assembly; with the wall frozen: the reaction that keeps it where it stands.
+  // Wall forces beyond those of the assembly; with the wall frozen: the reaction that keeps it where it
+  // stands.
   const Eigen::MatrixX2d change = contact_.fidelity == Fidelity::linear
                                       ? frozen_reaction(ring_, *assembled_, selection.load.points, force)
                                       : Eigen::MatrixX2d(solved.wall_force - assembled_->force_components());

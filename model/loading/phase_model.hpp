@@ -1,16 +1,18 @@
 #pragma once
-// One meshing phase of the loaded pair: the points that may carry load, with their backlash, the cup assembled at this
-// phase, and the LCP made from both. Solves single loads; what the whole analysis makes of them is load_cases.hpp's business.
+// One meshing phase of the loaded pair: the points that may carry load, with their backlash, the cup
+// assembled at this phase, and the LCP made from both. Solves single loads; what the whole analysis makes of
+// them is load_cases.hpp's business.
 //
-// With many points a tooth (heights × slices) most of them never touch, and coast flanks touch only when the gear is
-// wedged or bent far. The LCP then holds a selection: at first the drive flanks' point of least take-up of the half of all
-// tooth slices that touch first, and those of the coast flanks that overlap when both sides are rigid. After a solve the
-// gap of every other point, drive and coast, is computed from the forces; those that would penetrate join, until none
-// does. So no contact can be missed, and the result is the solution of the whole problem.
+// With many points a tooth (heights × slices) most of them never touch, and coast flanks touch only when the
+// gear is wedged or bent far. The LCP then holds a selection: at first the drive flanks' point of least
+// take-up of the half of all tooth slices that touch first, and those of the coast flanks that overlap when
+// both sides are rigid. After a solve the gap of every other point, drive and coast, is computed from the
+// forces; those that would penetrate join, until none does. So no contact can be missed, and the result is
+// the solution of the whole problem.
 //
-// A study that solves many neighbours of one gear may hand in a start: selection and closed set of a nominal load, fixed
-// by its plan. It saves work and changes no result (contact/lcp.hpp: a first guess changes no bit; a larger selection
-// holds more open points, which are no part of the factor).
+// A study that solves many neighbours of one gear may hand in a start: selection and closed set of a nominal
+// load, fixed by its plan. It saves work and changes no result (contact/lcp.hpp: a first guess changes no
+// bit; a larger selection holds more open points, which are no part of the factor).
 
 #include "strainwave/model/contact/load_problem.hpp"
 #include "strainwave/model/gear/gear.hpp"
@@ -22,7 +24,8 @@
 
 namespace strainwave {
 
-/// Where to start: a selection of points and what was closed, by names that hold for any gaps. Empty: from scratch.
+/// Where to start: a selection of points and what was closed, by names that hold for any gaps. Empty: from
+/// scratch.
 struct ContactStart {
   struct Point {
     int tooth = 0, slice = 0, level = 0; ///< as in LoadedPoint
@@ -41,7 +44,8 @@ struct LoadStarts {
   std::map<double, ContactStart> by_phase;
 };
 
-/// One load at one phase. Arrays run over PhaseModel::points(), those with coast_ over PhaseModel::coast_points().
+/// One load at one phase. Arrays run over PhaseModel::points(), those with coast_ over
+/// PhaseModel::coast_points().
 struct PhaseLoad {
   double rotation_rad = 0.0;
   double torque_nm = 0.0; ///< all lobes
@@ -68,8 +72,9 @@ struct PhaseLoad {
 
 class PhaseModel {
 public:
-  /// `assembled` belongs to this phase. The ring and the surface are kept by reference. `coast`: points of the coast
-  /// flanks (the ring's responses then hold both flanks); without them drive flanks alone are candidates.
+  /// `assembled` belongs to this phase. The ring and the surface are kept by reference. `coast`: points of
+  /// the coast flanks (the ring's responses then hold both flanks); without them drive flanks alone are
+  /// candidates.
   PhaseModel(const Contact& contact, const RingCompliance& ring, const WaveGeneratorSurface& surface,
              std::shared_ptr<const AssembledState> assembled, std::vector<LoadedPoint> points,
              std::vector<LoadedPoint> coast = {}, const ContactStart& start = {});
@@ -83,8 +88,8 @@ public:
   double take_up_rad() const;
   /// The same without the bound at 0: negative when drive flanks overlap at θ = 0.
   double least_take_up_rad() const;
-  /// By how much drive and coast flanks overlap at whatever rotation, rad: the first coast touch, −min c/R of the coast
-  /// flanks, minus the first drive touch. Above 0 no rotation is free of load: the gear is wedged.
+  /// By how much drive and coast flanks overlap at whatever rotation, rad: the first coast touch, −min c/R of
+  /// the coast flanks, minus the first drive touch. Above 0 no rotation is free of load: the gear is wedged.
   double overlap_rad() const;
 
   /// A torque of 0 is the take-up or, wedged, the rotation at rest.

@@ -1,6 +1,6 @@
 #pragma once
-// The loaded pair at one meshing phase as the LCP that it is, all points at once: for whoever asks what the compliance alone
-// allows (bounds), not what one gear does.
+// The loaded pair at one meshing phase as the LCP that it is, all points at once: for whoever asks what the
+// compliance alone allows (bounds), not what one gear does.
 
 #include "strainwave/model/contact/load_problem.hpp"
 

@@ -9,9 +9,9 @@
 
 namespace strainwave {
 
-/// Rows across the discs where the wall may touch: both edges, which carry nearly all of the force, and the middle. Rows
-/// much closer than those of the mesh say the same thing three times, and their compliance is singular to rounding like
-/// (width / row spacing)⁴: narrow discs have the middle alone.
+/// Rows across the discs where the wall may touch: both edges, which carry nearly all of the force, and the
+/// middle. Rows much closer than those of the mesh say the same thing three times, and their compliance is
+/// singular to rounding like (width / row spacing)⁴: narrow discs have the middle alone.
 std::vector<double> contact_rows(const Gear& gear);
 
 /// The rigid surface that holds the wall; both discs are moved outwards by disc_shift_mm.

@@ -1,11 +1,12 @@
 #pragma once
-// What a forward analysis returns, in the units of the surface: N, N·m, µm, mm, degrees, radians where named so.
-// Arrays run over teeth in ascending φ. Angles of teeth lie in (−90°, 90°] of the first lobe when both lobes are alike (coast:
-// mirrored, [−90°, 90°)), and in (−90°, 270°] when they differ (odd number of teeth): both lobes are listed then, engaged_count
-// counts both, and the engaged zone is given as seen from each tooth's own lobe.
+// What a forward analysis returns, in the units of the surface: N, N·m, µm, mm, degrees, radians where named
+// so. Arrays run over teeth in ascending φ. Angles of teeth lie in (−90°, 90°] of the first lobe when both
+// lobes are alike (coast: mirrored, [−90°, 90°)), and in (−90°, 270°] when they differ (odd number of teeth):
+// both lobes are listed then, engaged_count counts both, and the engaged zone is given as seen from each
+// tooth's own lobe.
 
-#include "strainwave/model/gear/gear.hpp"
 #include "strainwave/common/core/outcome.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 #include <optional>
 #include <string>
@@ -21,7 +22,8 @@ struct WaveGeneratorResult {
   double disc_radius_mm = 0.0; ///< to the neutral line; 0 for cams
   double eccentricity_mm = 0.0;
   double u90_mm = 0.0;
-  double rim_strain = 0.0; ///< largest bending strain of the rim's surface: t/2 |κ − 1/r_m| along the neutral line
+  double rim_strain =
+      0.0; ///< largest bending strain of the rim's surface: t/2 |κ − 1/r_m| along the neutral line
   std::string shape;
 };
 
@@ -59,7 +61,8 @@ struct AssemblyResult {
 
 struct ComplianceResult {
   std::vector<int> tooth;
-  std::vector<std::vector<double>> matrix_um_per_n; ///< contact frozen as assembled, all lobes of the gear's [contact] loaded
+  std::vector<std::vector<double>>
+      matrix_um_per_n; ///< contact frozen as assembled, all lobes of the gear's [contact] loaded
   double reciprocity_error = 0.0;
 };
 
@@ -70,7 +73,7 @@ struct PointResults {
   std::vector<double> z_mm;
   std::vector<double> contact_radius_mm; ///< distance of the point from the gear's axis
   std::vector<double> force_n;
-  std::vector<double> gap_um; ///< loaded; 0 where closed
+  std::vector<double> gap_um;        ///< loaded; 0 where closed
   std::vector<double> half_width_um; ///< of the contact along the flank (pressure.hpp); 0 without force
   std::vector<double> pressure_mpa;  ///< peak over that width
   std::vector<int> edge;             ///< 1: a tip edge touches; the pressure is a lower bound there
@@ -87,7 +90,8 @@ struct PressurePeak {
   bool edge = false;
 };
 
-/// Forces on the coast flanks, with those of the drive flanks in balance with the torque. Empty when none carries.
+/// Forces on the coast flanks, with those of the drive flanks in balance with the torque. Empty when none
+/// carries.
 struct CoastResults {
   std::vector<int> tooth; ///< every tooth whose coast flank is a candidate, ascending φ (window mirrored)
   std::vector<double> phi_deg;
@@ -132,12 +136,13 @@ struct LoadResult {
   CoastResults coast;
 };
 
-/// A gear whose drive and coast flanks overlap at every rotation: its rest, at no torque. Of the phase with the largest
-/// force on one flank; forces of one lobe when both are alike.
+/// A gear whose drive and coast flanks overlap at every rotation: its rest, at no torque. Of the phase with
+/// the largest force on one flank; forces of one lobe when both are alike.
 struct WedgeResult {
   double phase = 0.0;
   double rotation_rad = 0.0; ///< at rest
-  double overlap_um = 0.0;   ///< of rigid flanks, both sides together, along the arc at the flexspline's tip radius
+  double overlap_um =
+      0.0; ///< of rigid flanks, both sides together, along the arc at the flexspline's tip radius
   double peak_force_n = 0.0; ///< largest sum on one flank of a tooth
   double sum_force_n = 0.0;  ///< of all flanks
   int drive_count = 0;       ///< teeth that carry on the drive flank

@@ -1,20 +1,23 @@
 #pragma once
-// Derivatives of the contact states of one meshing phase, by the implicit function theorem on the sets that are closed.
+// Derivatives of the contact states of one meshing phase, by the implicit function theorem on the sets that
+// are closed.
 //
 //     gap_k = c_k cos α′_k − a_k · U − R_k cos α′_k θ = 0        U = G (P − P_a) − G Σ a_i F_i
 //     wall  n · Δu = 0 (linear: as assembly left it), or gap(u) = 0 exactly (unilateral)
 //
-// with forces held, c, R, height h and α′ of each contact follow from flank_slopes.hpp, the functionals a from h and α′, the
-// assembled forces P_a from assembly's own closed set, the surface from gradient_surface.hpp. The changes of all forces then
-// come from one factor of the state (contact_tangent.hpp), one back-substitution for each parameter: no further contact
-// problem is solved. Forces of every point come out together, so that an optimiser can have all of them (epigraph).
+// with forces held, c, R, height h and α′ of each contact follow from flank_slopes.hpp, the functionals a
+// from h and α′, the assembled forces P_a from assembly's own closed set, the surface from
+// gradient_surface.hpp. The changes of all forces then come from one factor of the state
+// (contact_tangent.hpp), one back-substitution for each parameter: no further contact problem is solved.
+// Forces of every point come out together, so that an optimiser can have all of them (epigraph).
 //
-// At a kink (a point about to open or close with zero force, a contact at a node of the compliance's interpolation or at a tie
-// of two places) the derivative is that of the sets as they stand: one of the one-sided ones at most.
+// At a kink (a point about to open or close with zero force, a contact at a node of the compliance's
+// interpolation or at a tie of two places) the derivative is that of the sets as they stand: one of the
+// one-sided ones at most.
 
 #include "strainwave/model/contact/contact_tangent.hpp"
-#include "strainwave/model/slopes/gradient_surface.hpp"
 #include "strainwave/model/loading/phase_model.hpp"
+#include "strainwave/model/slopes/gradient_surface.hpp"
 #include "strainwave/model/tooth/flank_slopes.hpp"
 
 #include <map>
@@ -53,10 +56,11 @@ public:
                      const PhaseLoad& load, Control control) const;
   /// Of the least c/R of drive points, rad.
   Eigen::VectorXd least_take_up(const std::vector<LoadedPoint>& points) const;
-  /// Of the backlash of the assembled cup at any material angle of the first lobe and place along the axis, mm: a least one,
-  /// where the angle itself does not matter.
+  /// Of the backlash of the assembled cup at any material angle of the first lobe and place along the axis,
+  /// mm: a least one, where the angle itself does not matter.
   Eigen::VectorXd assembled_backlash(double phi_rad, double z_mm) const;
-  /// Of the contact pressure (pressure.hpp) of a point that carries `pressure_mpa`, MPa; `force` holds the slopes of all forces.
+  /// Of the contact pressure (pressure.hpp) of a point that carries `pressure_mpa`, MPa; `force` holds the
+  /// slopes of all forces.
   Eigen::VectorXd pressure(const std::vector<LoadedPoint>& points, const PhaseLoad& load,
                            const Eigen::MatrixXd& force, std::size_t point, double pressure_mpa) const;
   /// Of the assembled resultant on one disc, N.
@@ -70,7 +74,8 @@ private:
   struct Closed;
 
   PoseSlopes pose(const LoadedPoint& point) const;
-  /// Lines u, v, rotation, tilt of the neutral surface under a tooth; columns: assembled, then by column of the surface.
+  /// Lines u, v, rotation, tilt of the neutral surface under a tooth; columns: assembled, then by column of
+  /// the surface.
   const Eigen::MatrixXd& section(int tooth, double z_mm) const;
   PoseSlopes standing(double phi_rad, const Eigen::MatrixXd& section) const;
   const PointChange& change(const LoadedPoint& point) const;

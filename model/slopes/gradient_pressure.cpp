@@ -1,14 +1,15 @@
-// PhaseSlopes::pressure. With w the line load, 1/R the relative curvature and s the share of the flank (pressure.hpp)
+// PhaseSlopes::pressure. With w the line load, 1/R the relative curvature and s the share of the flank
+// (pressure.hpp)
 //     Hertz  p = √(w E* / (π R))     dp = p/2 (dw/w + d(1/R) R)
 //     mean   p = w / s               dp = p (dw/w − ds/s)
-// The curvatures of modified flanks have no derivatives of their own here: d(1/R) is a central difference of them, the contact
-// moving along; they are close to linear in every key.
+// The curvatures of modified flanks have no derivatives of their own here: d(1/R) is a central difference of
+// them, the contact moving along; they are close to linear in every key.
 
+#include "strainwave/model/gear/fields.hpp"
 #include "strainwave/model/meshing/flank_points.hpp"
+#include "strainwave/model/meshing/pressure.hpp"
 #include "strainwave/model/slopes/gradient_detail.hpp"
 #include "strainwave/model/slopes/gradient_phase.hpp"
-#include "strainwave/model/meshing/pressure.hpp"
-#include "strainwave/model/gear/fields.hpp"
 #include "strainwave/model/tooth/flank_curvature.hpp"
 
 #include <algorithm>

@@ -154,7 +154,8 @@ PhaseLoadSlopes PhaseSlopes::of(const std::vector<LoadedPoint>& points, const st
     wall_tooth = ring.wall_tooth(both, directions, functionals);
   }
 
-  // Displacements under the present forces: of the wall along n and τ, and of the changing functionals since assembly.
+  // Displacements under the present forces: of the wall along n and τ, and of the changing functionals since
+  // assembly.
   const Eigen::VectorXd u = wall_wall.leftCols(walls) * at.wall_force - wall_tooth.leftCols(teeth) * at.force;
   const Eigen::Index extra = all - teeth;
   Eigen::VectorXd since = wall_tooth.topRightCorner(walls, extra).transpose() * at.wall_force -

@@ -1,7 +1,7 @@
 #include "strainwave/model/slopes/gradient_surface.hpp"
 
-#include "strainwave/model/meshing/gear_surface.hpp"
 #include "strainwave/model/gear/fields.hpp"
+#include "strainwave/model/meshing/gear_surface.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,9 @@
 #pragma once
-// How the rigid surface under the wall moves with the wave generator's numbers: change of the gap and turn of its normal at a
-// held wall point. Discs are known in closed form. A cam is differenced, as are eccentricity over a given wrap angle and every
-// shape but discs: the surface alone, not the solution; central steps of 1e-4 (1e-4 of the number, at least 1e-4 of a mm or
-// degree) and their halves, extrapolated, are good to some 1e-9.
+// How the rigid surface under the wall moves with the wave generator's numbers: change of the gap and turn of
+// its normal at a held wall point. Discs are known in closed form. A cam is differenced, as are eccentricity
+// over a given wrap angle and every shape but discs: the surface alone, not the solution; central steps of
+// 1e-4 (1e-4 of the number, at least 1e-4 of a mm or degree) and their halves, extrapolated, are good to some
+// 1e-9.
 
 #include "strainwave/model/contact/wave_generator_surface.hpp"
 #include "strainwave/model/gear/gear.hpp"
@@ -15,12 +16,14 @@
 
 namespace strainwave {
 
-/// The wave generator's numbers whose effect is known: on the neutral curve (poses), on the surface, or on both.
+/// The wave generator's numbers whose effect is known: on the neutral curve (poses), on the surface, or on
+/// both.
 bool is_surface_parameter(const Gear& gear, const std::string& path);
 
 class SurfaceSlopes {
 public:
-  /// Columns for those of `parameters` that move the surface; the last one is the shift of both discs outwards.
+  /// Columns for those of `parameters` that move the surface; the last one is the shift of both discs
+  /// outwards.
   SurfaceSlopes(const Gear& gear, const NeutralCurve& curve, const WaveGeneratorSurface& surface,
                 std::span<const std::string> parameters, double disc_shift_mm);
 

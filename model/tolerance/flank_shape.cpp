@@ -11,7 +11,8 @@ namespace strainwave {
 
 namespace {
 
-/// Knots of the spline that carries a form error: a period of a cosine through 33 of them is met to 3e-6 of its height.
+/// Knots of the spline that carries a form error: a period of a cosine through 33 of them is met to 3e-6 of
+/// its height.
 constexpr int form_pieces = 32;
 constexpr double step_um = 0.01;
 
@@ -27,8 +28,8 @@ double removed(ToleranceKind kind, double h) {
   }
 }
 
-/// The spline of a modification with the error added: its own knots and enough for the error. A natural spline through
-/// values of another on finer knots that contain its own is that spline.
+/// The spline of a modification with the error added: its own knots and enough for the error. A natural
+/// spline through values of another on finer knots that contain its own is that spline.
 std::vector<double> spline_with(const FlankModification& own, Member member, ToleranceKind kind,
                                 double error_um, double offset_um) {
   FlankModification alone;

@@ -35,7 +35,8 @@ ToothMotion scaled(const ToothMotion& motion, double factor) {
 
 using Flank = ToothBacklash (FlankPair::*)(const Pose&, double) const;
 
-/// Derivatives of one tooth's backlash and contact radius by its motion, by central differences of the direct geometry.
+/// Derivatives of one tooth's backlash and contact radius by its motion, by central differences of the direct
+/// geometry.
 void differentiate(const MeshPlace& place, const FlankPair& pair, Flank flank, double step_rad,
                    ToothMotion& backlash_by, ToothMotion& radius_by) {
   const auto difference = [&](const ToothMotion& motion, double step, double& of_backlash,

@@ -1,19 +1,19 @@
 #pragma once
 // Backlash and contact radius of every tooth of both lobes, with the errors of one sample.
 //
-// The nominal geometry is solved once; c_i and R_i then follow the small motions of error_motion.hpp and the shapes of
-// flank_shape.hpp by their first derivatives (central differences of the direct geometry). What is left out is of second
-// order: with errors of 10 µm on every source of the seed gear it stays below 0.05 µm where the place of contact does not
-// change. Errors of single teeth and centre offsets are not alike in both lobes, so the ring is unfolded: all
-// teeth, material angles in (−90°, 270°], each lobe with its own.
+// The nominal geometry is solved once; c_i and R_i then follow the small motions of error_motion.hpp and the
+// shapes of flank_shape.hpp by their first derivatives (central differences of the direct geometry). What is
+// left out is of second order: with errors of 10 µm on every source of the seed gear it stays below 0.05 µm
+// where the place of contact does not change. Errors of single teeth and centre offsets are not alike in both
+// lobes, so the ring is unfolded: all teeth, material angles in (−90°, 270°], each lobe with its own.
 //
 // A sample is one position of the wave generator. Position q: it has moved on by q teeth, so that tooth i + q
 // and space i + q stand where tooth and space i stood; q = 0 … lcm(z1, z2) − 1 are all different.
 
-#include "strainwave/model/gear/gear.hpp"
 #include "strainwave/common/core/outcome.hpp"
-#include "strainwave/model/tooth/backlash.hpp"
+#include "strainwave/model/gear/gear.hpp"
 #include "strainwave/model/tolerance/error_motion.hpp"
+#include "strainwave/model/tooth/backlash.hpp"
 
 #include <optional>
 #include <vector>
@@ -40,7 +40,8 @@ public:
   /// Failures: those of backlash() and shape_pair(); contradiction when z2 − z1 is odd (a tooth of the second
   /// lobe then meets no space).
   static Outcome<ToleranceModel> make(const Gear&, const NeutralCurve&, const std::vector<ToleranceSource>&);
-  /// The same for chosen teeth with poses of their own (an assembled cup); those without overlap are left out.
+  /// The same for chosen teeth with poses of their own (an assembled cup); those without overlap are left
+  /// out.
   static Outcome<ToleranceModel> make(const Gear&, const NeutralCurve&, const std::vector<MeshedTooth>&,
                                       const std::vector<ToleranceSource>&);
 

@@ -15,8 +15,8 @@
 //
 // r = m z/2 is the member's pitch circle, theta_k = 2 pi k/z its tooth's own angle, n the harmonic. delta > 0
 // is towards larger angles; ds > 0 is a thicker tooth (flexspline), a wider space (circular spline). h is the
-// flank coordinate of flank_modification.hpp: 0 to 1 outwards. Profile errors are those of the tool: alike for
-// all teeth of a member and both flanks.
+// flank coordinate of flank_modification.hpp: 0 to 1 outwards. Profile errors are those of the tool: alike
+// for all teeth of a member and both flanks.
 //
 // Where they come from. Pitch and run-out: ISO 1328-1:2013; delta is the index deviation, the single pitch
 // deviation is delta_k - delta_(k-1), so independent delta of spread sigma make it sqrt(2) sigma. Thickness:

@@ -13,8 +13,8 @@
 // Lengths in mm, angles in rad. Face coordinate zeta: -1 diaphragm end, 0 mid face, +1 open end (it matters
 // for lead modifications only).
 
-#include "strainwave/model/gear/gear.hpp"
 #include "strainwave/common/core/outcome.hpp"
+#include "strainwave/model/gear/gear.hpp"
 #include "strainwave/model/kinematics/neutral_curve.hpp"
 
 #include <memory>

@@ -84,13 +84,16 @@ std::optional<Failure> find_flank_contradiction(const Gear& gear) {
         "circular_spline.tip_radius_mm {} must be less than circular_spline.root_radius_mm {} (internal "
         "teeth)",
         c.tip_radius_mm, c.root_radius_mm);
-  // A tip circle ten times off the pitch circle is a slip of a unit, and the involute overflows far out there.
+  // A tip circle ten times off the pitch circle is a slip of a unit, and the involute overflows far out
+  // there.
   const double pitch = 0.5 * f.module_mm * f.teeth;
   if (!(f.tip_radius_mm < 10.0 * pitch))
-    return contradiction("flexspline.tip_radius_mm {} does not fit the pitch radius module_mm {} * teeth {} / 2 = {:.5g} mm",
-                         f.tip_radius_mm, f.module_mm, f.teeth, pitch);
+    return contradiction(
+        "flexspline.tip_radius_mm {} does not fit the pitch radius module_mm {} * teeth {} / 2 = {:.5g} mm",
+        f.tip_radius_mm, f.module_mm, f.teeth, pitch);
   if (!(c.root_radius_mm < 10.0 * pitch))
-    return contradiction("circular_spline.root_radius_mm {} does not fit the pitch radius module_mm {} * teeth {} / 2 = {:.5g} mm",
+    return contradiction("circular_spline.root_radius_mm {} does not fit the pitch radius module_mm {} * "
+                         "teeth {} / 2 = {:.5g} mm",
                          c.root_radius_mm, f.module_mm, f.teeth, pitch);
   const InvoluteTooth tooth = flexspline_tooth(gear), space = circular_spline_space(gear);
   if (!(f.tip_radius_mm > tooth.base_radius))
@@ -175,8 +178,10 @@ std::optional<Failure> find_in_wave_generator(const Gear& gear) {
   if (gear.wave_generator.shape != WaveGeneratorShape::table && reach >= gear.circular_spline.root_radius_mm)
     return contradiction(
         "the flexspline's teeth reach the ground of the circular spline's spaces at the major axis: "
-        "flexspline.tip_radius_mm {} + max_radial_deformation_mm {} = {} mm against circular_spline.root_radius_mm {} mm",
-        f.tip_radius_mm, gear.wave_generator.max_radial_deformation_mm, reach, gear.circular_spline.root_radius_mm);
+        "flexspline.tip_radius_mm {} + max_radial_deformation_mm {} = {} mm against "
+        "circular_spline.root_radius_mm {} mm",
+        f.tip_radius_mm, gear.wave_generator.max_radial_deformation_mm, reach,
+        gear.circular_spline.root_radius_mm);
   const double width = gear.wave_generator.contact_width_mm;
   if (!(width > 0.0))
     return contradiction("wave_generator.contact_width_mm {} is not a positive length", width);

@@ -3,8 +3,8 @@
 // Involute geometry: base radius r_b = (m z/2) cos alpha, half tooth (space) angle at radius rho
 //     (pi/2 + 2 x tan alpha)/z + inv alpha - inv(arccos(r_b/rho)),   inv a = tan a - a.
 
-#include "strainwave/model/gear/gear.hpp"
 #include "strainwave/common/core/outcome.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 #include <optional>
 

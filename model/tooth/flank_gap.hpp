@@ -108,8 +108,8 @@ FlankPoint<T> flank_point(const Flank<T>& flank, const Placement<T>& place, cons
   return p;
 }
 
-/// Newton steps for unknown x in numbers T: until a change of 1e-9 says that the next one would be rounding, then once more
-/// where there are derivatives, which follow one step behind.
+/// Newton steps for unknown x in numbers T: until a change of 1e-9 says that the next one would be rounding,
+/// then once more where there are derivatives, which follow one step behind.
 template <class T, class Correction>
 T newton(T x, const Correction& correction) {
   bool last = false;

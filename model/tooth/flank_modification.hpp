@@ -15,8 +15,8 @@
 // must not be negative. Derivatives with respect to slope and taper at zero are those towards positive
 // values.
 
-#include "strainwave/model/gear/gear.hpp"
 #include "strainwave/common/core/outcome.hpp"
+#include "strainwave/model/gear/gear.hpp"
 
 #include <optional>
 

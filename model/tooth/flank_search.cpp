@@ -151,8 +151,8 @@ ToothBacklash least_gap(const FlankPair::Prepared& prepared, const Placement<dou
       ++index;
     }
     std::stable_sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) { return a.t < b.t; });
-    // Breaks of two modifications at one place are one break, and sharp if one of them is: the other's smooth side would take
-    // a minimum at the jump of the slope for one that can move.
+    // Breaks of two modifications at one place are one break, and sharp if one of them is: the other's smooth
+    // side would take a minimum at the jump of the slope for one that can move.
     const double same = 1e-12 * (prepared.pair.flexspline.t_outer - prepared.pair.flexspline.t_inner);
     for (std::size_t k = 1; k < marks.size();) {
       if (marks[k].t - marks[k - 1].t > same) {

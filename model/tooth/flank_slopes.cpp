@@ -28,7 +28,8 @@ void for_each_flank_number(GearNumbers<S>& g, const Function& f) {
   }
 }
 
-/// α′ of pressure_angle.hpp (model/forward): the normal of the flank that is smooth at the contact, against the circumference.
+/// α′ of pressure_angle.hpp (model/forward): the normal of the flank that is smooth at the contact, against
+/// the circumference.
 T pressure_angle(const ToothPair<T>& pair, const T& neutral_radius, const T& rho, const T& normal_rotation,
                  const ContactSpot& spot, const T& t, const T& contact_radius) {
   using std::atan2, std::cos, std::sin, std::sqrt;

@@ -1,11 +1,12 @@
 #pragma once
-// How a single contact changes with the numbers of the gear file: its gap, its distance from the gear's axis, its place on the
-// flexspline's flank and the direction of its normal, all at once, for any pose.
+// How a single contact changes with the numbers of the gear file: its gap, its distance from the gear's axis,
+// its place on the flexspline's flank and the direction of its normal, all at once, for any pose.
 //
-// The gap formula (flank_gap.hpp) is evaluated once in numbers that carry derivatives, at the place where the contact is: at a
-// fixed height of the flexspline's flank, at an edge or kink, which moves with its own parameters, or at an inner least gap,
-// which moves so that the slope of the gap stays zero, dt/dp = −(∂²gap/∂t∂p)/(∂²gap/∂t²). Poses come with their own
-// derivatives, from the neutral curve or from the assembled cup alike.
+// The gap formula (flank_gap.hpp) is evaluated once in numbers that carry derivatives, at the place where the
+// contact is: at a fixed height of the flexspline's flank, at an edge or kink, which moves with its own
+// parameters, or at an inner least gap, which moves so that the slope of the gap stays zero, dt/dp =
+// −(∂²gap/∂t∂p)/(∂²gap/∂t²). Poses come with their own derivatives, from the neutral curve or from the
+// assembled cup alike.
 //
 // backlash_gradient.hpp answers for all teeth of a table; this class for the few contacts that carry load.
 
@@ -44,8 +45,8 @@ struct ContactSlopes {
   Eigen::VectorXd gap, radius, height_slope, pressure_angle;
 };
 
-/// The keys that act through the flanks themselves: profile shifts, radii and modifications (backlash_gradient.hpp names them
-/// too; the wave generator's act through the poses).
+/// The keys that act through the flanks themselves: profile shifts, radii and modifications
+/// (backlash_gradient.hpp names them too; the wave generator's act through the poses).
 bool is_flank_parameter(const Gear&, const std::string& path);
 
 class FlankSlopes {

@@ -66,8 +66,8 @@ struct ContactDerivatives {
   Eigen::Matrix<double, N, 1> backlash, radius;
 };
 
-/// Roll angle of the flexspline's flank at a contact's place, in dual numbers: it moves with the parameters as its edge or
-/// kink does; at an inner least gap the last slot counts its own change.
+/// Roll angle of the flexspline's flank at a contact's place, in dual numbers: it moves with the parameters
+/// as its edge or kink does; at an inner least gap the last slot counts its own change.
 template <int M>
 Dual<M> contact_roll(const ToothPair<Dual<M>>& pair, const Placement<Dual<M>>& place, ContactPlace at,
                      int kink, double roll) {

@@ -49,7 +49,8 @@ T power_of(const T& x, const T& exponent) {
   return exp(T(exponent * log(x)));
 }
 inline double power_of(double x, double exponent) {
-  return exponent == 1.0 ? x : std::pow(x, exponent); // the usual power is 2; the same bits, a tenth of the time
+  return exponent == 1.0 ? x
+                         : std::pow(x, exponent); // the usual power is 2; the same bits, a tenth of the time
 }
 
 /// The keys of one member at one section, as numbers of type T [mm, -].

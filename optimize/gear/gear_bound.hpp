@@ -1,9 +1,9 @@
 #pragma once
-// How near a design comes to what no design could beat (force_bound.hpp), for a real gear: any number of points a tooth,
-// any fidelity, every phase.
+// How near a design comes to what no design could beat (force_bound.hpp), for a real gear: any number of
+// points a tooth, any fidelity, every phase.
 //
-// Many points a tooth are lumped so that the bound stays one. Let f_i = Σ F_p over the points of tooth i. Where a point
-// carries, its gap is 0; the mean of these equations, weighted with F_p, is
+// Many points a tooth are lumped so that the bound stays one. Let f_i = Σ F_p over the points of tooth i.
+// Where a point carries, its gap is 0; the mean of these equations, weighted with F_p, is
 //
 //     d_i f_i + Σ_j D̃_ij f_j + c_i ≤ r_i θ,
 //     d_i = min FᵀD_ii F over F ≥ 0, ΣF = 1      (the stiffest way to load this tooth alone),
@@ -11,18 +11,19 @@
 //
 // Every design fulfils it, so the least peak under it is a bound; with one point a tooth nothing is lost.
 //
-// With fidelity unilateral D belongs to the wall contact that the forces of the bound bring about: wall, programme, wall …
-// until the contact does not change. Wall gaps are linearised about the assembled state.
+// With fidelity unilateral D belongs to the wall contact that the forces of the bound bring about: wall,
+// programme, wall … until the contact does not change. Wall gaps are linearised about the assembled state.
 //
-// c_i is the least clearance of tooth i over all designs: at the corners and in the middle of the box of those variables that
-// move or shape whole flanks, without any removal, but not below what the study demands of every design. Clearances are close to
-// linear in these variables (∂c/∂x2 = 75.8 µm on the seed gear), so the corners hold the least.
+// c_i is the least clearance of tooth i over all designs: at the corners and in the middle of the box of
+// those variables that move or shape whole flanks, without any removal, but not below what the study demands
+// of every design. Clearances are close to linear in these variables (∂c/∂x2 = 75.8 µm on the seed gear), so
+// the corners hold the least.
 //
 // All phases must be carried, so the largest of the phases' bounds counts.
 
 #include "strainwave/model/forward/forward.hpp"
-#include "strainwave/optimize/problem/design.hpp"
 #include "strainwave/optimize/gear/force_bound.hpp"
+#include "strainwave/optimize/problem/design.hpp"
 
 #include <map>
 #include <optional>
@@ -48,12 +49,13 @@ struct LeastClearance {
   int without_result = 0;                      ///< of these
 };
 
-/// `at_least_mm`: what the study demands of every design (−infinity: nothing). Fails where no corner has a result.
+/// `at_least_mm`: what the study demands of every design (−infinity: nothing). Fails where no corner has a
+/// result.
 Outcome<LeastClearance> least_clearance(ForwardModel& model, const Gear& base, const DesignSpace& design,
                                         double at_least_mm);
 
-/// `gear` is the design whose compliance counts; its [load] names the phases. Nothing in the optional: no set of teeth carries
-/// the torque within the rotation.
+/// `gear` is the design whose compliance counts; its [load] names the phases. Nothing in the optional: no set
+/// of teeth carries the torque within the rotation.
 Outcome<std::optional<GearBound>> gear_force_bound(ForwardModel& model, const Gear& gear,
                                                    const LeastClearance& clearance, double torque_nm,
                                                    double rotation_rad);

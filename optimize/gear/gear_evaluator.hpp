@@ -6,12 +6,12 @@
 // of its own. What a model remembers is unit responses and assemblies by content; it changes the time, never
 // the numbers.
 //
-// Gradients are exact (model/forward/gradient.hpp) for variables whose keys, linked ones included, act through flanks, poses
-// and assembly. A variable that changes the finite elements or the discs' width is differenced as a whole: central, step 0.002
-// of its range, one-sided at a bound. The finite elements of a thin cup carry rounding of some 1e-8 of a response, so that a
-// smaller step would be worse: what is left is some 1e-5 of the response over the range, and 1e-6 of its third derivative.
-// The contact states of the last few points are kept: a gradient at a point that has just been evaluated costs its derivatives
-// alone.
+// Gradients are exact (model/forward/gradient.hpp) for variables whose keys, linked ones included, act
+// through flanks, poses and assembly. A variable that changes the finite elements or the discs' width is
+// differenced as a whole: central, step 0.002 of its range, one-sided at a bound. The finite elements of a
+// thin cup carry rounding of some 1e-8 of a response, so that a smaller step would be worse: what is left is
+// some 1e-5 of the response over the range, and 1e-6 of its third derivative. The contact states of the last
+// few points are kept: a gradient at a point that has just been evaluated costs its derivatives alone.
 
 #include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/forward/gradient.hpp"

@@ -1,8 +1,8 @@
 #include "strainwave/optimize/plans/global_then_polish.hpp"
 
+#include "strainwave/common/threads/parallel.hpp"
 #include "strainwave/optimize/methods/ipopt_search.hpp"
 #include "strainwave/optimize/methods/nlopt_search.hpp"
-#include "strainwave/common/threads/parallel.hpp"
 #include "strainwave/optimize/methods/start_points.hpp"
 
 #include <algorithm>
@@ -112,8 +112,8 @@ SearchResult global_then_polish(const Problem& problem, const OptimiseSettings& 
   const double separation =
       0.3 * std::pow(static_cast<double>(found.seen.size() + 1), -1.0 / static_cast<double>(n));
   auto valleys = best_apart(problem, found.seen, std::max<std::size_t>(1, settings.starts), separation);
-  // The study's own start is a valley too: a designer's first guess, and where many variables leave a survey thin the best there
-  // is. It takes the place of the least promising one.
+  // The study's own start is a valley too: a designer's first guess, and where many variables leave a survey
+  // thin the best there is. It takes the place of the least promising one.
   const std::vector<double> own = problem.design().scaled(problem.design().start());
   const auto start = std::find_if(found.seen.begin(), found.seen.end(),
                                   [&](const SearchPoint& point) { return point.y == own; });

@@ -1,10 +1,10 @@
 #include "strainwave/optimize/plans/optimise.hpp"
 
-#include "strainwave/optimize/plans/global_then_polish.hpp"
+#include "strainwave/common/threads/parallel.hpp"
 #include "strainwave/optimize/methods/ipopt_search.hpp"
 #include "strainwave/optimize/methods/nlopt_search.hpp"
-#include "strainwave/common/threads/parallel.hpp"
 #include "strainwave/optimize/methods/start_points.hpp"
+#include "strainwave/optimize/plans/global_then_polish.hpp"
 
 #include <algorithm>
 

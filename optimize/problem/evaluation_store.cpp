@@ -42,7 +42,8 @@ std::vector<double> EvaluationStore::piece_gradient(std::span<const double> x) {
   return slopes(x, &Entry::piece_gradient, &PointNews::piece_gradient, &Evaluator::piece_gradient);
 }
 
-/// Two threads may compute the same slopes at once: the bits are the same. Empty ones are not kept: there is no gradient.
+/// Two threads may compute the same slopes at once: the bits are the same. Empty ones are not kept: there is
+/// no gradient.
 std::vector<double>
 EvaluationStore::slopes(std::span<const double> x, std::optional<std::vector<double>> Entry::*kept,
                         const std::vector<double>* PointNews::*told,

@@ -3,9 +3,9 @@
 // restart, two searches that meet) is served from memory; the key is the exact bits of the inputs, with −0 as
 // 0. Two threads that ask for the same point at the same time get one evaluation.
 //
-// What is known from an earlier run (know()) is answered like what this run has found; what is new is handed to a
-// listener, which keeps it (studies/search_journal.hpp). So a search that is run again from its start goes on where it
-// was stopped.
+// What is known from an earlier run (know()) is answered like what this run has found; what is new is handed
+// to a listener, which keeps it (studies/search_journal.hpp). So a search that is run again from its start
+// goes on where it was stopped.
 
 #include "strainwave/optimize/problem/evaluator.hpp"
 
@@ -55,7 +55,8 @@ public:
 
   /// Before any search: from an earlier run, as its listener has been told.
   void know(const PointNews& news);
-  /// `listener` is called by the threads that evaluate, before anybody is served the answer; what it throws reaches them.
+  /// `listener` is called by the threads that evaluate, before anybody is served the answer; what it throws
+  /// reaches them.
   void listen(std::function<void(const PointNews&)> listener) { listener_ = std::move(listener); }
 
   EvaluationCounts counts() const;

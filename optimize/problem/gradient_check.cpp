@@ -138,7 +138,8 @@ Line line_of(const Neighbours& near, const std::vector<double> Evaluation::*list
   return line;
 }
 
-/// The transmission error is a small difference of rotations and has their rounding; others have that of their own size.
+/// The transmission error is a small difference of rotations and has their rounding; others have that of
+/// their own size.
 double terms_of(std::string_view response, double value, std::span<const Response> responses,
                 const std::vector<double>& values) {
   constexpr double arcsec_per_rad = 180.0 * 3600.0 / std::numbers::pi;

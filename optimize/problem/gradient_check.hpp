@@ -1,17 +1,19 @@
 #pragma once
-// Is every derivative right? Each entry (response × variable, and the pieces) is compared with differences of the evaluator at
-// ever smaller steps. The error of a central difference falls as h² towards a right derivative, until rounding takes over; a
-// wrong one leaves an error that stays. At a bound the one-sided formula of the same order stands in,
+// Is every derivative right? Each entry (response × variable, and the pieces) is compared with differences of
+// the evaluator at ever smaller steps. The error of a central difference falls as h² towards a right
+// derivative, until rounding takes over; a wrong one leaves an error that stays. At a bound the one-sided
+// formula of the same order stands in,
 //
 //     central  [f(h) − f(−h)] / 2h            one-sided  [4 f(h) − 3 f(0) − f(2h)] / 2h
 //
 // Steps are shares of the variable's range, from 2⁻⁷ down to 2⁻¹⁹ by factors of 2. An entry is
-//   right    its error falls with order 2 (factor 3.2 … 4.8 twice running) and ends below 10⁻³, or comes below 10⁻⁵, of the
+//   right    its error falls with order 2 (factor 3.2 … 4.8 twice running) and ends below 10⁻³, or comes
+//   below 10⁻⁵, of the
 //            derivative's size, or within what rounding leaves (noise / step)
-//   kink     the two one-sided slopes stay apart, and the derivative is one of them or lies between: no single number is right
-//   wrong    neither
-//   unknown  the evaluator states none (NaN), or its neighbours fail
-// The size of a derivative: the larger of itself and of a 10⁻⁶ part of the response over the variable's range.
+//   kink     the two one-sided slopes stay apart, and the derivative is one of them or lies between: no
+//   single number is right wrong    neither unknown  the evaluator states none (NaN), or its neighbours fail
+// The size of a derivative: the larger of itself and of a 10⁻⁶ part of the response over the variable's
+// range.
 
 #include "strainwave/optimize/problem/design.hpp"
 #include "strainwave/optimize/problem/evaluator.hpp"

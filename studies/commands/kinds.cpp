@@ -1,12 +1,12 @@
 #include "strainwave/studies/commands/kinds.hpp"
 
-#include "strainwave/optimize/plans/optimise.hpp"
 #include "strainwave/model/results/response.hpp"
+#include "strainwave/optimize/plans/optimise.hpp"
+#include "strainwave/studies/file/study_gear.hpp"
+#include "strainwave/studies/sweep/sweep.hpp"
 #include "strainwave/studies/tolerances/monte_carlo.hpp"
 #include "strainwave/studies/tolerances/outputs.hpp"
 #include "strainwave/studies/tolerances/sensitivity.hpp"
-#include "strainwave/studies/file/study_gear.hpp"
-#include "strainwave/studies/sweep/sweep.hpp"
 
 #include <stdexcept>
 

@@ -1,9 +1,9 @@
 #include "strainwave/studies/commands/plan.hpp"
 
 #include "strainwave/optimize/gear/gear_evaluator.hpp"
-#include "strainwave/studies/search/optimisation.hpp"
 #include "strainwave/studies/commands/kinds.hpp"
 #include "strainwave/studies/file/study_gear.hpp"
+#include "strainwave/studies/search/optimisation.hpp"
 
 #include <algorithm>
 #include <chrono>

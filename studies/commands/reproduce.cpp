@@ -1,11 +1,11 @@
 #include "strainwave/studies/commands/reproduce.hpp"
 
-#include "strainwave/optimize/gear/gear_evaluator.hpp"
-#include "strainwave/studies/results/results_reader.hpp"
-#include "strainwave/studies/search/optimisation.hpp"
 #include "strainwave/common/core/units.hpp"
+#include "strainwave/optimize/gear/gear_evaluator.hpp"
 #include "strainwave/studies/commands/kinds.hpp"
 #include "strainwave/studies/file/study_gear.hpp"
+#include "strainwave/studies/results/results_reader.hpp"
+#include "strainwave/studies/search/optimisation.hpp"
 
 #include <fmt/format.h>
 

@@ -21,8 +21,8 @@ struct ReproducedRow {
   std::optional<bool> same_bits;           ///< as recorded; nothing where it is not recorded (yet)
 };
 
-/// Row `index` of DIR/results.h5, of any kind of study. Throws FileError without a plan, std::out_of_range with one
-/// sentence for an index that there is not.
+/// Row `index` of DIR/results.h5, of any kind of study. Throws FileError without a plan, std::out_of_range
+/// with one sentence for an index that there is not.
 Outcome<ReproducedRow> reproduce_row(const std::filesystem::path& folder, std::uint64_t index,
                                      const RowOptions& options);
 

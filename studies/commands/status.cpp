@@ -2,9 +2,9 @@
 
 #include "strainwave/common/files/content_hash.hpp"
 #include "strainwave/common/rows/merge.hpp"
-#include "strainwave/studies/tables/run.hpp"
-#include "strainwave/studies/search/journal.hpp"
 #include "strainwave/studies/file/study_gear.hpp"
+#include "strainwave/studies/search/journal.hpp"
+#include "strainwave/studies/tables/run.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #pragma once
-// What all checks of studies use: places in the file, names against what is legal, numbers of the gear. Internal to the
-// room.
+// What all checks of studies use: places in the file, names against what is legal, numbers of the gear.
+// Internal to the room.
 
-#include "strainwave/model/gear/fields.hpp"
 #include "strainwave/common/core/nearest.hpp"
+#include "strainwave/model/gear/fields.hpp"
 #include "strainwave/studies/file/checks.hpp"
 
 #include <fmt/format.h>

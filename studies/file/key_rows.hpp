@@ -1,6 +1,6 @@
 #pragma once
-// How a row of study_keys() is written down: from a member of a table's struct follow kind, reading and writing.
-// For the sources that list keys only.
+// How a row of study_keys() is written down: from a member of a table's struct follow kind, reading and
+// writing. For the sources that list keys only.
 
 #include "strainwave/studies/file/keys.hpp"
 

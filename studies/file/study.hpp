@@ -1,6 +1,6 @@
 #pragma once
-// Study files: TOML that names a gear, what may vary, what is wanted and how to search. What sweeps, tolerances and
-// sensitivities say stands in study_sampling.hpp; the rest here.
+// Study files: TOML that names a gear, what may vary, what is wanted and how to search. What sweeps,
+// tolerances and sensitivities say stands in study_sampling.hpp; the rest here.
 //
 //     kind = "optimize"
 //     gear = "seed.toml"                          # relative to the study file
@@ -149,8 +149,8 @@ StudyFile load_study(const std::string& path, bool reduced = false, const StudyV
 StudyFile parse_study(std::string_view text, const std::string& name, bool reduced = false,
                       const StudyVocabulary& vocabulary = {});
 
-/// A study from what write_study() and write_gear(study.gear) have given: needs no other file, so that a study's folder can
-/// be read on another machine. `name`: of the file that holds both, for messages.
+/// A study from what write_study() and write_gear(study.gear) have given: needs no other file, so that a
+/// study's folder can be read on another machine. `name`: of the file that holds both, for messages.
 StudyFile restore_study(std::string_view text, std::string_view gear_text, const std::string& name,
                         const StudyVocabulary& vocabulary = {});
 

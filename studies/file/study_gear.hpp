@@ -13,7 +13,8 @@ bool is_sampled(StudyKind kind);
 /// The loads of a study: cases with the same phases and direction share one analysis.
 std::vector<Load> study_loads(const StudyFile& study);
 
-/// The study's gear with the study's loads in its [load], so that an analysis of it gives the study's numbers.
+/// The study's gear with the study's loads in its [load], so that an analysis of it gives the study's
+/// numbers.
 Gear gear_with_loads(const StudyFile& study);
 
 } // namespace strainwave

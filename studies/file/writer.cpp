@@ -1,8 +1,8 @@
 // write_study(): the resolved study as a file.
 
 #include "strainwave/model/gear_file/toml_writer.hpp"
-#include "strainwave/studies/file/study.hpp"
 #include "strainwave/studies/file/keys.hpp"
+#include "strainwave/studies/file/study.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include "strainwave/studies/report/report.hpp"
 
 #include "strainwave/common/files/whole_file.hpp"
+#include "strainwave/studies/file/study_gear.hpp"
 #include "strainwave/studies/results/result_folder.hpp"
 #include "strainwave/studies/tables/run.hpp"
-#include "strainwave/studies/file/study_gear.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -26,7 +26,8 @@ struct ResultsDifference {
   bool identical = false; ///< same rows, columns, inputs, status and bits of outputs
 };
 
-/// Rows are matched by their inputs, in any order. Throws std::invalid_argument where the inputs are other numbers.
+/// Rows are matched by their inputs, in any order. Throws std::invalid_argument where the inputs are other
+/// numbers.
 ResultsDifference compare_results(const StoredResults& first, const StoredResults& second);
 
 } // namespace strainwave

@@ -1,10 +1,10 @@
 #include "strainwave/studies/results/result_folder.hpp"
 
+#include "strainwave/common/files/content_hash.hpp"
+#include "strainwave/common/files/whole_file.hpp"
+#include "strainwave/common/rows/merge.hpp"
 #include "strainwave/model/gear/fields.hpp"
 #include "strainwave/model/gear_file/gear_file.hpp"
-#include "strainwave/common/files/content_hash.hpp"
-#include "strainwave/common/rows/merge.hpp"
-#include "strainwave/common/files/whole_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

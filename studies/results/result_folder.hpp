@@ -1,8 +1,9 @@
 #pragma once
-// The folder of a study. Every file is written beside its place, synced and renamed into it, so a reader never sees half
-// of one.
+// The folder of a study. Every file is written beside its place, synced and renamed into it, so a reader
+// never sees half of one.
 //
-//   plan.json     what is to be done: the resolved study, the gear, hash; written before the first evaluation, then
+//   plan.json     what is to be done: the resolved study, the gear, hash; written before the first
+//   evaluation, then
 //                 never again
 //   shards/       the journals: the truth about what has been evaluated
 //   results.h5    every evaluation, derived from the journals; see journal/results_table.hpp
@@ -24,8 +25,8 @@ public:
   explicit ResultFolder(std::filesystem::path path);
 
   const std::filesystem::path& path() const { return path_; }
-  /// Why this folder is not to be written by this study: it holds the results of another one, or other files. Empty: it
-  /// may.
+  /// Why this folder is not to be written by this study: it holds the results of another one, or other files.
+  /// Empty: it may.
   std::string occupied(const StudyFile& study) const;
   /// Nothing where the same plan is there already.
   void write_plan(const StudyFile& study) const;
@@ -40,12 +41,12 @@ private:
 /// The `verdict` of DIR/result.json; empty where there is none.
 std::string known_verdict(const std::filesystem::path& folder);
 
-/// The study of a folder, from plan.json alone. Throws FileError where there is no plan or one of another version of the
-/// program.
+/// The study of a folder, from plan.json alone. Throws FileError where there is no plan or one of another
+/// version of the program.
 StudyFile read_plan(const std::filesystem::path& folder, const StudyVocabulary& vocabulary = {});
 
-/// Identifies a study: its resolved text (without the place of the gear file), the bits of its gear, and the program's
-/// version.
+/// Identifies a study: its resolved text (without the place of the gear file), the bits of its gear, and the
+/// program's version.
 std::uint64_t plan_hash(const StudyFile& study);
 
 /// Resolved study and gear as one text: /config of results.h5.

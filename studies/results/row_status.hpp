@@ -1,6 +1,6 @@
 #pragma once
-// Status of the rows of gear studies: 0 ok, then the model's own reasons in the order of Status, then two that only a
-// study has. results.h5 carries the names.
+// Status of the rows of gear studies: 0 ok, then the model's own reasons in the order of Status, then two
+// that only a study has. results.h5 carries the names.
 
 #include "strainwave/common/core/outcome.hpp"
 

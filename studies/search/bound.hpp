@@ -5,8 +5,9 @@
 
 namespace strainwave {
 
-/// Fills report.bound (or report.no_bound) for a least peak_force_n under torques in the drive direction; else nothing. The
-/// rotation allowed is that of the study's limit on rotation_rad for the largest torque, else the optimum's own.
+/// Fills report.bound (or report.no_bound) for a least peak_force_n under torques in the drive direction;
+/// else nothing. The rotation allowed is that of the study's limit on rotation_rad for the largest torque,
+/// else the optimum's own.
 void report_bound(OptimisationReport& report, const DesignSpace& design, const std::vector<Load>& loads,
                   const ForwardOptions& options);
 

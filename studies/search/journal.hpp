@@ -1,12 +1,13 @@
 #pragma once
-// The lasting store of a search: every evaluation and every gradient in a journal, answered again when the search is run
-// again from its start. A key is the exact bits of the inputs together with the hash of the plan and of the model.
+// The lasting store of a search: every evaluation and every gradient in a journal, answered again when the
+// search is run again from its start. A key is the exact bits of the inputs together with the hash of the
+// plan and of the model.
 //
-// A record (RecordKind::point) is: what it holds, x, seconds, then an evaluation or a list of slopes. Records of one point
-// complete each other: its value is served wherever it was written with or without slopes.
+// A record (RecordKind::point) is: what it holds, x, seconds, then an evaluation or a list of slopes. Records
+// of one point complete each other: its value is served wherever it was written with or without slopes.
 
-#include "strainwave/optimize/problem/evaluation_store.hpp"
 #include "strainwave/common/rows/journal_writer.hpp"
+#include "strainwave/optimize/problem/evaluation_store.hpp"
 
 #include <filesystem>
 
@@ -18,8 +19,8 @@ void decode_point(std::span<const std::byte> bytes, const std::function<void(con
 
 class SearchJournal {
 public:
-  /// Fills `store` with what is known and listens to it from then on; it has to live as long as the store is asked.
-  /// Throws JournalError, std::system_error.
+  /// Fills `store` with what is known and listens to it from then on; it has to live as long as the store is
+  /// asked. Throws JournalError, std::system_error.
   SearchJournal(const std::filesystem::path& path, std::uint64_t plan_hash, std::uint64_t model_hash,
                 EvaluationStore& store);
   ~SearchJournal();

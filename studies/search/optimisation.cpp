@@ -1,12 +1,12 @@
 #include "strainwave/studies/search/optimisation.hpp"
 
 #include "strainwave/optimize/plans/pareto.hpp"
-#include "strainwave/studies/search/bound.hpp"
-#include "strainwave/studies/search/variants.hpp"
-#include "strainwave/studies/results/result_folder.hpp"
-#include "strainwave/studies/search/results_file.hpp"
-#include "strainwave/studies/search/journal.hpp"
 #include "strainwave/studies/file/study_gear.hpp"
+#include "strainwave/studies/results/result_folder.hpp"
+#include "strainwave/studies/search/bound.hpp"
+#include "strainwave/studies/search/journal.hpp"
+#include "strainwave/studies/search/results_file.hpp"
+#include "strainwave/studies/search/variants.hpp"
 
 #include <fmt/format.h>
 

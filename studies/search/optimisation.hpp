@@ -1,10 +1,10 @@
 #pragma once
 // Runs a study of kind "optimize" or "pareto": from the file to judged optima beside the unmodified gear.
 
-#include "strainwave/optimize/problem/evaluation_store.hpp"
 #include "strainwave/optimize/gear/gear_bound.hpp"
 #include "strainwave/optimize/gear/gear_evaluator.hpp"
 #include "strainwave/optimize/plans/optimise.hpp"
+#include "strainwave/optimize/problem/evaluation_store.hpp"
 #include "strainwave/studies/file/study.hpp"
 
 #include <filesystem>

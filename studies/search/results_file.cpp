@@ -1,11 +1,11 @@
 #include "strainwave/studies/search/results_file.hpp"
 
-#include "strainwave/model/gear_file/gear_file.hpp"
-#include "strainwave/common/files/content_hash.hpp"
-#include "strainwave/studies/results/results_table.hpp"
-#include "strainwave/studies/search/text.hpp"
-#include "strainwave/studies/results/row_status.hpp"
 #include "strainwave/common/core/units.hpp"
+#include "strainwave/common/files/content_hash.hpp"
+#include "strainwave/model/gear_file/gear_file.hpp"
+#include "strainwave/studies/results/results_table.hpp"
+#include "strainwave/studies/results/row_status.hpp"
+#include "strainwave/studies/search/text.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
-// An optimum seen through other models: does what was gained in one of them stand in the next? The optimised gear and the
-// unmodified one are analysed again with one choice of the model changed at a time:
+// An optimum seen through other models: does what was gained in one of them stand in the next? The optimised
+// gear and the unmodified one are analysed again with one choice of the model changed at a time:
 //
 //     the other fidelity     unilateral ↔ linear
 //     the other gap model    kinematic ↔ assembled

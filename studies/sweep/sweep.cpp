@@ -1,15 +1,16 @@
 // Rows of a sweep: gears whose keys run through lists of values.
 //
-// Rows of a factorial sweep are ordered by cost: keys of the cup (flexspline, material, mesh) move slowest, then those of
-// the wave generator, then all others, loads fastest; within a class as in the file. So a cup is solved once, an assembly
-// once for each cup and wave generator, and both are shared by all threads through one forward model.
+// Rows of a factorial sweep are ordered by cost: keys of the cup (flexspline, material, mesh) move slowest,
+// then those of the wave generator, then all others, loads fastest; within a class as in the file. So a cup
+// is solved once, an assembly once for each cup and wave generator, and both are shared by all threads
+// through one forward model.
 
 #include "strainwave/studies/sweep/sweep.hpp"
 
-#include "strainwave/model/forward/forward.hpp"
-#include "strainwave/studies/results/row_status.hpp"
-#include "strainwave/studies/file/study_gear.hpp"
 #include "strainwave/common/core/units.hpp"
+#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/studies/file/study_gear.hpp"
+#include "strainwave/studies/results/row_status.hpp"
 
 #include <fmt/format.h>
 

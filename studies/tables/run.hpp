@@ -3,8 +3,8 @@
 
 #include "strainwave/common/rows/run_rows.hpp"
 #include "strainwave/studies/results/result_folder.hpp"
-#include "strainwave/studies/tables/statistics.hpp"
 #include "strainwave/studies/tables/row_study.hpp"
+#include "strainwave/studies/tables/statistics.hpp"
 
 namespace strainwave {
 
@@ -52,8 +52,8 @@ EnginePlan engine_plan(const StudyFile& study, const SampledStudy& rows, std::ui
 std::uint64_t sampled_model_hash(const SampledStudy& rows);
 ResultsTable results_table(const StudyFile& study, const SampledStudy& rows);
 
-/// The whole study in one process also writes results.h5 and result.json; a shard writes its journal alone. Throws
-/// JournalError, std::system_error, FieldError.
+/// The whole study in one process also writes results.h5 and result.json; a shard writes its journal alone.
+/// Throws JournalError, std::system_error, FieldError.
 Outcome<SampledReport> run_sampled(const StudyFile& study, const RowMaker& make_rows,
                                    const ResultFolder& folder, const SampledOptions& options);
 

@@ -1,11 +1,11 @@
 #pragma once
 // What is asked of a finished table, by the kind of study.
 
-#include "strainwave/studies/tables/row_study.hpp"
 #include "strainwave/common/statistics/morris.hpp"
 #include "strainwave/common/statistics/sobol_indices.hpp"
 #include "strainwave/common/statistics/stop_rule.hpp"
 #include "strainwave/common/statistics/summary.hpp"
+#include "strainwave/studies/tables/row_study.hpp"
 
 namespace strainwave {
 

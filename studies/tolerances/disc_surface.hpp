@@ -1,12 +1,12 @@
 #pragma once
-// The gear on discs with other numbers, between a few that were assembled: poses of all teeth and their displacement by
-// assembly as polynomials of u0 and e.
+// The gear on discs with other numbers, between a few that were assembled: poses of all teeth and their
+// displacement by assembly as polynomials of u0 and e.
 //
-// Chebyshev interpolation on a tensor grid over the box that the sources nearly always stay in (inverse distances of the
-// nodes: Trefethen, Approximation Theory and Approximation Practice, 2013). The degree grows until the interpolant differs
-// from assemblies at points between the nodes by less than the tolerance; the largest difference found stays with it.
-// Poses are analytic in u0 and e; the displacement by assembly has kinks where a wall station joins or leaves, which limit
-// the accuracy.
+// Chebyshev interpolation on a tensor grid over the box that the sources nearly always stay in (inverse
+// distances of the nodes: Trefethen, Approximation Theory and Approximation Practice, 2013). The degree grows
+// until the interpolant differs from assemblies at points between the nodes by less than the tolerance; the
+// largest difference found stays with it. Poses are analytic in u0 and e; the displacement by assembly has
+// kinks where a wall station joins or leaves, which limit the accuracy.
 
 #include "strainwave/model/forward/ring_pair.hpp"
 
@@ -28,7 +28,8 @@ struct DiscSurfaceOptions {
 
 class DiscSurface {
 public:
-  /// Failures: those of assembly within the box; not_converged when the largest degree leaves more than most_mm.
+  /// Failures: those of assembly within the box; not_converged when the largest degree leaves more than
+  /// most_mm.
   static Outcome<DiscSurface> make(const NominalMesh& mesh, const DiscBox& box,
                                    const DiscSurfaceOptions& options = {});
 

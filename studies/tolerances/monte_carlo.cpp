@@ -2,8 +2,8 @@
 
 #include "strainwave/studies/tolerances/monte_carlo.hpp"
 
-#include "strainwave/studies/tolerances/sampled_gear.hpp"
 #include "strainwave/common/sampling/design.hpp"
+#include "strainwave/studies/tolerances/sampled_gear.hpp"
 
 namespace strainwave {
 

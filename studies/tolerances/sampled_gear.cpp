@@ -13,11 +13,11 @@ namespace strainwave {
 
 namespace {
 
-/// Teeth farther from contact than this are moved by first derivatives even when the discs change: 0.03 mm of gap are more
-/// than any sample closes.
+/// Teeth farther from contact than this are moved by first derivatives even when the discs change: 0.03 mm of
+/// gap are more than any sample closes.
 constexpr double near_mm = 0.03;
-/// Part of a distribution outside the interpolant at either end: those rows are assembled, or have no result. Wide
-/// distributions whose corners have none themselves get a smaller box.
+/// Part of a distribution outside the interpolant at either end: those rows are assembled, or have no result.
+/// Wide distributions whose corners have none themselves get a smaller box.
 constexpr std::array tails{1e-5, 1e-3, 1e-2};
 
 void refuse_loads(const StudyFile& study) {

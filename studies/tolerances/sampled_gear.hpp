@@ -1,26 +1,30 @@
 #pragma once
-// Rows of a gear with errors: one nominal mesh, whole ring, and for every row its own gaps, lever arms, discs and loads.
+// Rows of a gear with errors: one nominal mesh, whole ring, and for every row its own gaps, lever arms, discs
+// and loads.
 //
-//     numbers of the row → errors of all teeth (tolerance_model.hpp) → c_i, R_i → contact (sampled_contact.hpp) → outputs
+//     numbers of the row → errors of all teeth (tolerance_model.hpp) → c_i, R_i → contact
+//     (sampled_contact.hpp) → outputs
 //
-// A row is one position of the wave generator, or with `positions` = N the worst of N positions q = ⌊j z1/N⌋, j = 0 … N − 1:
-// of each output its worst value (largest force, least stiffness), over positions and load cases.
+// A row is one position of the wave generator, or with `positions` = N the worst of N positions q = ⌊j z1/N⌋,
+// j = 0 … N − 1: of each output its worst value (largest force, least stiffness), over positions and load
+// cases.
 //
-// c_i and R_i follow the errors by first derivatives of the direct geometry. With u0 or e among the sources the poses change
-// by more than that: they are interpolated (disc_surface.hpp), moved by the errors, and the flanks of all teeth that are near
-// contact are searched directly. Outside the box of the interpolant the row's discs are assembled.
+// c_i and R_i follow the errors by first derivatives of the direct geometry. With u0 or e among the sources
+// the poses change by more than that: they are interpolated (disc_surface.hpp), moved by the errors, and the
+// flanks of all teeth that are near contact are searched directly. Outside the box of the interpolant the
+// row's discs are assembled.
 //
-// Only drive flanks carry. Where interference, or a thick tooth, would bring a coast flank into contact under load the row
-// has no result: status coast_contact.
+// Only drive flanks carry. Where interference, or a thick tooth, would bring a coast flank into contact under
+// load the row has no result: status coast_contact.
 
-#include "strainwave/model/lcp/sampled_contact.hpp"
 #include "strainwave/model/forward/ring_pair.hpp"
-#include "strainwave/studies/tolerances/disc_surface.hpp"
-#include "strainwave/studies/results/row_status.hpp"
-#include "strainwave/studies/tolerances/sources.hpp"
-#include "strainwave/studies/tables/row_study.hpp"
+#include "strainwave/model/lcp/sampled_contact.hpp"
 #include "strainwave/model/tolerance/tolerance_model.hpp"
+#include "strainwave/studies/results/row_status.hpp"
+#include "strainwave/studies/tables/row_study.hpp"
+#include "strainwave/studies/tolerances/disc_surface.hpp"
 #include "strainwave/studies/tolerances/outputs.hpp"
+#include "strainwave/studies/tolerances/sources.hpp"
 
 namespace strainwave {
 
@@ -47,8 +51,8 @@ public:
   std::string_view status_name(std::uint8_t status) const override;
   std::unique_ptr<RowWorker> worker() const override;
 
-  /// Everything about one row as a JSON object: the numbers of all sources, and for every position and load the gap, lever
-  /// arm and force of every tooth.
+  /// Everything about one row as a JSON object: the numbers of all sources, and for every position and load
+  /// the gap, lever arm and force of every tooth.
   std::string describe(std::uint64_t row, std::span<const double> values) const;
 
   static std::vector<std::string> status_names();

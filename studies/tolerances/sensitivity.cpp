@@ -1,18 +1,24 @@
-// Rows of a sensitivity study. Every source of the study is one input of the indices, however many numbers it has.
+// Rows of a sensitivity study. Every source of the study is one input of the indices, however many numbers it
+// has.
 //
-//     sobol    blocks A, B, A with all numbers of source i from B (grouped indices: Sobol', Math. Comput. Simul. 55, 2001):
-//              the share of the variance that source i as a whole makes. Points: one Sobol' point of 2 × all numbers a block.
-//     morris   trajectories of sampling/morris_points.hpp. Its u is the probability of a source that is one number or an
-//              amplitude; of errors of single teeth and centre offsets it scales the deviations from their mean by 2 u, so
-//              that the effect is that of their spread. Their pattern, and phases, are drawn once for each trajectory.
-//     local    row 0 with every source at its mean, then each source that is one number or an amplitude (at phase 0) a
+//     sobol    blocks A, B, A with all numbers of source i from B (grouped indices: Sobol', Math. Comput.
+//     Simul. 55, 2001):
+//              the share of the variance that source i as a whole makes. Points: one Sobol' point of 2 × all
+//              numbers a block.
+//     morris   trajectories of sampling/morris_points.hpp. Its u is the probability of a source that is one
+//     number or an
+//              amplitude; of errors of single teeth and centre offsets it scales the deviations from their
+//              mean by 2 u, so that the effect is that of their spread. Their pattern, and phases, are drawn
+//              once for each trajectory.
+//     local    row 0 with every source at its mean, then each source that is one number or an amplitude (at
+//     phase 0) a
 //              hundredth of its standard deviation up and down: derivatives by central differences.
 
 #include "strainwave/studies/tolerances/sensitivity.hpp"
 
-#include "strainwave/studies/tolerances/sampled_gear.hpp"
 #include "strainwave/common/sampling/counter_random.hpp"
 #include "strainwave/common/sampling/sobol_points.hpp"
+#include "strainwave/studies/tolerances/sampled_gear.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -48,7 +48,8 @@ bool has_phase(ToleranceKind kind) {
          kind == ToleranceKind::ovality;
 }
 
-/// A source by its path. Throws FieldError for keys that the finite elements or the search for contact depend on.
+/// A source by its path. Throws FieldError for keys that the finite elements or the search for contact depend
+/// on.
 void set_key(const StudyFile& study, const std::string& at, SampledSources::Source& source,
              const std::string& path) {
   if (path == "wave_generator.max_radial_deformation_mm") {

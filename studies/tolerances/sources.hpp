@@ -1,10 +1,11 @@
 #pragma once
-// The sources of a tolerance study as numbers of a row: where each source's numbers stand, how they are drawn, and the one
-// named number by which results and correlations know each source.
+// The sources of a tolerance study as numbers of a row: where each source's numbers stand, how they are
+// drawn, and the one named number by which results and correlations know each source.
 //
-// A row holds first all numbers of tolerance/tolerance_model.hpp, then those of the wave generator and the loads. Of a
-// source that is an amplitude A and a phase, A has the study's distribution and the phase is uniform over a turn; of errors
-// of single teeth every tooth has it by itself; x and y of a centre offset too.
+// A row holds first all numbers of tolerance/tolerance_model.hpp, then those of the wave generator and the
+// loads. Of a source that is an amplitude A and a phase, A has the study's distribution and the phase is
+// uniform over a turn; of errors of single teeth every tooth has it by itself; x and y of a centre offset
+// too.
 //
 //     kind                              named number
 //     one number                        itself
@@ -13,8 +14,8 @@
 //     adjacent_pitch, backlash_noise    the root mean square over the teeth
 
 #include "strainwave/common/sampling/sources.hpp"
-#include "strainwave/studies/file/study.hpp"
 #include "strainwave/model/tolerance/tolerance_source.hpp"
+#include "strainwave/studies/file/study.hpp"
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
-#include "strainwave/studies/tolerances/sampled_gear.hpp"
 #include "strainwave/studies/tolerances/outputs.hpp"
+#include "strainwave/studies/tolerances/sampled_gear.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -9,8 +9,8 @@
 
 namespace strainwave {
 
-/// One thread's way through rows: all buffers are its own, nothing is allocated for a row that has a result (but for rows
-/// beyond the interpolant of the discs).
+/// One thread's way through rows: all buffers are its own, nothing is allocated for a row that has a result
+/// (but for rows beyond the interpolant of the discs).
 class SampledGearWorker : public RowWorker {
 public:
   explicit SampledGearWorker(const SampledGear& gear) : gear_(gear) {
@@ -27,7 +27,8 @@ public:
     }
   }
 
-  /// Called after every solved position and load, with the worker's buffers: for people who ask about one row.
+  /// Called after every solved position and load, with the worker's buffers: for people who ask about one
+  /// row.
   std::function<void(const SampledGearWorker&, int position, std::size_t load)> look;
 
   std::span<const double> backlash_mm() const { return backlash_; }

@@ -104,7 +104,8 @@ TEST_F(CommandLine, CheckOfAGearThatContradictsItselfEndsWith3) {
   write("gear.toml", seed_with("boss_radius_mm = 5.0", "boss_radius_mm = 14.0"));
   const End end = run("check gear.toml");
   EXPECT_EQ(end.code, 3);
-  EXPECT_TRUE(end.err.starts_with("strainwave: gear.toml: flexspline.boss_radius_mm 14 must be less than")) << end.err;
+  EXPECT_TRUE(end.err.starts_with("strainwave: gear.toml: flexspline.boss_radius_mm 14 must be less than"))
+      << end.err;
 }
 
 TEST_F(CommandLine, CheckOfAGearWithoutWrapEndsWith3) {

@@ -108,7 +108,8 @@ TEST_F(Environment, CheckSaysWhatThisVersionCannotDo) {
   for (const char* command : {"check gear.toml", "analyze gear.toml"}) {
     const End end = run(command);
     EXPECT_EQ(end.code, 3) << command;
-    EXPECT_TRUE(end.err.starts_with("strainwave: gear.toml: the nonlinear finite-element check is not in this version"))
+    EXPECT_TRUE(end.err.starts_with(
+        "strainwave: gear.toml: the nonlinear finite-element check is not in this version"))
         << end.err;
   }
   EXPECT_EQ(run("analyze gear.toml --only backlash").code, 0);

@@ -57,9 +57,9 @@ protected:
 TEST_F(Export, contact_problem_is_solved_by_another_program_to_the_same_forces) {
   if (std::system("/usr/bin/python3 -c 'import h5py, scipy' 2> /dev/null") != 0)
     GTEST_SKIP() << "needs python3-h5py and python3-scipy";
-  std::ofstream(folder / "linearised.toml") << coarse_seed().replace(coarse_seed().find("disc_gap = \"exact\""),
-                                                                     std::string("disc_gap = \"exact\"").size(),
-                                                                     "disc_gap = \"linearised\"");
+  std::ofstream(folder / "linearised.toml")
+      << coarse_seed().replace(coarse_seed().find("disc_gap = \"exact\""),
+                               std::string("disc_gap = \"exact\"").size(), "disc_gap = \"linearised\"");
   ASSERT_EQ(run("export linearised.toml --contact contact.h5").code, 0);
   const End analysed = run("analyze linearised.toml --json");
   ASSERT_EQ(analysed.code, 0) << analysed.err;

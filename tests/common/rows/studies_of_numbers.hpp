@@ -1,8 +1,8 @@
 #pragma once
 // Models to run: three random inputs, two outputs; some rows fail with a sentence.
 
-#include "strainwave/common/rows/run_rows.hpp"
 #include "strainwave/common/rows/merge.hpp"
+#include "strainwave/common/rows/run_rows.hpp"
 #include "strainwave/common/sampling/counter_random.hpp"
 
 #include <atomic>

@@ -1,5 +1,6 @@
-// The answer of a contact state to small changes, against one dense linear system written out from the equations of
-// contact_tangent.hpp, with weak and with strong geometric stiffness; and the surface's derivatives against differences.
+// The answer of a contact state to small changes, against one dense linear system written out from the
+// equations of contact_tangent.hpp, with weak and with strong geometric stiffness; and the surface's
+// derivatives against differences.
 
 #include "strainwave/model/contact/contact_tangent.hpp"
 #include "strainwave/model/contact/wave_generator_surface.hpp"

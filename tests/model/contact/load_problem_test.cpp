@@ -1,5 +1,5 @@
-// Section by section what an independent program found on the same unit responses: physics of the seed gear, one contact
-// point per tooth at tip height, backlash of the exact two-disc curve, linearised disc gap.
+// Section by section what an independent program found on the same unit responses: physics of the seed gear,
+// one contact point per tooth at tip height, backlash of the exact two-disc curve, linearised disc gap.
 
 #include "strainwave/model/contact/load_problem.hpp"
 #include "strainwave/model/contact/tangent_compliance.hpp"

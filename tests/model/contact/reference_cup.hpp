@@ -1,7 +1,7 @@
 #pragma once
-// The seed cup's unit responses by an independent program (CalculiX 2.20, C3D20R, 141 120 nodes), as UnitResponses:
-// tests/reference/unit-responses.json. Teeth: two heights, circumferential only; wall: radial point loads only, so the
-// components that the file does not have are zero.
+// The seed cup's unit responses by an independent program (CalculiX 2.20, C3D20R, 141 120 nodes), as
+// UnitResponses: tests/reference/unit-responses.json. Teeth: two heights, circumferential only; wall: radial
+// point loads only, so the components that the file does not have are zero.
 
 #include "strainwave/model/flexspline/unit_responses.hpp"
 

@@ -1,5 +1,6 @@
-// The smooth cup of reference/assembly.json on its two discs, against an independent small-displacement program (run
-// l15_eg: C3D20R, 0.25 mm elements, exact disc gap), and under a torque couple (part_C, own_linear_exact_gap).
+// The smooth cup of reference/assembly.json on its two discs, against an independent small-displacement
+// program (run l15_eg: C3D20R, 0.25 mm elements, exact disc gap), and under a torque couple (part_C,
+// own_linear_exact_gap).
 
 #include "strainwave/model/contact/load_problem.hpp"
 #include "strainwave/model/flexspline/responses.hpp"
@@ -91,8 +92,9 @@ TEST_F(SmoothCup, TouchesAtTheRearEdgeInTheMiddleAndAtTheFrontEdgeFurtherOut) {
 }
 
 TEST_F(SmoothCup, TurnsUnderATorqueCoupleAsTheIndependentProgramSays) {
-  // 247.245 N per lobe towards smaller φ at 7 N·m, at radius 14.156, uniform over z 21.5 … 27.5 and φ −8 … 13°, here as
-  // force and couple on the neutral surface; d: mean displacement conjugate to it, from the assembled state.
+  // 247.245 N per lobe towards smaller φ at 7 N·m, at radius 14.156, uniform over z 21.5 … 27.5 and φ −8 …
+  // 13°, here as force and couple on the neutral surface; d: mean displacement conjugate to it, from the
+  // assembled state.
   const UnitResponses& u = ring.responses();
   const std::vector<double> simpson = {1, 4, 2, 4, 2, 4, 1};
   std::vector<ToothFunctional> spread;
@@ -137,8 +139,8 @@ TEST_F(SmoothCup, TurnsUnderATorqueCoupleAsTheIndependentProgramSays) {
     const double force = 247.245 * torque / 7.0;
     EXPECT_NEAR(1e3 * frozen * force, expected["frozen_d_um"].get<double>(),
                 0.03 * expected["frozen_d_um"].get<double>());
-    // θ is the displacement of the couple here (r = 1 mm), about the assembled state; small corrections by the exact gap
-    // (0.2 %) are left out
+    // θ is the displacement of the couple here (r = 1 mm), about the assembled state; small corrections by
+    // the exact gap (0.2 %) are left out
     const ContactState state = solver.solve_torque(load.problem, force).value();
     const double d = expected["unilateral_d_um"].get<double>();
     EXPECT_NEAR(1e3 * state.rotation, d, 0.03 * d) << key;

@@ -1,5 +1,6 @@
-// The toothed seed cup of our own finite elements on the discs, against the independent compliance (physics of the seed
-// gear: contact frozen as assembled with the linearised gap, point contact of three rows, other mesh, other footprint).
+// The toothed seed cup of our own finite elements on the discs, against the independent compliance (physics
+// of the seed gear: contact frozen as assembled with the linearised gap, point contact of three rows, other
+// mesh, other footprint).
 
 #include "strainwave/model/contact/load_problem.hpp"
 #include "strainwave/model/flexspline/responses.hpp"
@@ -147,7 +148,8 @@ TEST(ExactWallContact, ForcesActAlongTheNormalsOfTheDiscsWhereTheWallStands) {
   }
 }
 
-// Section "what the source text reports": every tooth loaded at its tip, backlash and lever arms of the exact discs.
+// Section "what the source text reports": every tooth loaded at its tip, backlash and lever arms of the exact
+// discs.
 struct Column {
   bool unilateral, linearised_gap;
   double torque_nm[4]; ///< at 1e-3, 2e-3, 3.38e-3, 4.5e-3 rad
@@ -183,7 +185,8 @@ TEST_P(SeedGearLoadedAtTheTips, ReproducesTheIndependentColumn) {
     EXPECT_NEAR(2e-3 * state.torque, column.torque_nm[i], 0.04 * column.torque_nm[i]) << rotation[i];
     if (i != 2)
       continue;
-    // 10 %: the footprint of our hats is wider than the reference's edge line, so the tooth is stiffer at its tip
+    // 10 %: the footprint of our hats is wider than the reference's edge line, so the tooth is stiffer at its
+    // tip
     EXPECT_NEAR(state.force.head(load.point_count).maxCoeff(), column.peak_n, 0.10 * column.peak_n);
     double lo = 90.0;
     double hi = -90.0;

@@ -60,7 +60,8 @@ TEST(WaveGeneratorSurface, LinearisedGapIsTheFormulaOfTheNeutralLine) {
 }
 
 TEST(WaveGeneratorSurface, CamGapIsTheDistanceToTheNearestPointOfTheEllipse) {
-  // The ellipse with the undeformed perimeter and a = 14.206: b from Ramanujan's second formula, exact to 1e-12 here.
+  // The ellipse with the undeformed perimeter and a = 14.206: b from Ramanujan's second formula, exact to
+  // 1e-12 here.
   const double a = 14.206;
   double b = 13.8;
   const auto perimeter = [&](double minor) {
@@ -79,8 +80,8 @@ TEST(WaveGeneratorSurface, CamGapIsTheDistanceToTheNearestPointOfTheEllipse) {
     const double t = 0.65 + 0.1 * i / 1000000;
     nearest = std::min(nearest, std::hypot(x - a * std::cos(t), y - b * std::sin(t)));
   }
-  // The wall point lies inside the neutral curve, so the signed distance is −nearest, and t/2 is added. A step of
-  // 1e-7 misses the foot by at most 7e-7 mm along the curve: (7e-7)²/(2·0.1) in distance.
+  // The wall point lies inside the neutral curve, so the signed distance is −nearest, and t/2 is added. A
+  // step of 1e-7 misses the foot by at most 7e-7 mm along the curve: (7e-7)²/(2·0.1) in distance.
   EXPECT_NEAR(elliptic_cam().gap(phi, 0.0, w, v).gap_mm, half - nearest, 1e-11);
 }
 

@@ -3,9 +3,9 @@
 
 #include "strainwave/model/export/cup_fields.hpp"
 
-#include "tests/model/export/folder.hpp"
 #include "strainwave/model/flexspline/ring.hpp"
 #include "strainwave/model/forward/forward.hpp"
+#include "tests/model/export/folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -123,7 +123,8 @@ TEST(CupFields, wedged_teeth_touch_on_both_flanks) {
   double torque = 0.0;
   for (const ToothContact& contact : loaded.teeth) {
     const LoadedPoint& tooth = contact.tooth;
-    // Towards larger φ the tooth moves into the drive flank and away from the coast flank; θ does the opposite.
+    // Towards larger φ the tooth moves into the drive flank and away from the coast flank; θ does the
+    // opposite.
     const double away =
         tooth_displacement(ring, plan, tooth, change) + tooth.contact_radius_mm * loaded.rotation_rad;
     const double gap = tooth.backlash_mm + (tooth.coast ? away : -away);

@@ -2,10 +2,10 @@
 
 #include "strainwave/model/flexspline/cyclic_field.hpp"
 
-#include "tests/model/flexspline/bodies.hpp"
 #include "strainwave/model/export/cup_grid.hpp"
 #include "strainwave/model/flexspline/cyclic.hpp"
 #include "strainwave/model/flexspline/ring.hpp"
+#include "tests/model/flexspline/bodies.hpp"
 
 #include <gtest/gtest.h>
 

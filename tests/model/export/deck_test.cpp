@@ -2,11 +2,11 @@
 
 #include "strainwave/model/export/cup_deck.hpp"
 
-#include "tests/model/flexspline/bodies.hpp"
-#include "tests/model/export/folder.hpp"
 #include "strainwave/model/flexspline/calculix.hpp"
 #include "strainwave/model/flexspline/cyclic_field.hpp"
 #include "strainwave/model/flexspline/ring.hpp"
+#include "tests/model/export/folder.hpp"
+#include "tests/model/flexspline/bodies.hpp"
 
 #include <cmath>
 #include <sstream>

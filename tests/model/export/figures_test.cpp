@@ -2,8 +2,8 @@
 
 #include "strainwave/model/export/figures.hpp"
 
-#include "tests/model/export/folder.hpp"
 #include "strainwave/model/forward/forward.hpp"
+#include "tests/model/export/folder.hpp"
 
 #include <sstream>
 #include <system_error>

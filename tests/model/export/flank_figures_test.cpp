@@ -1,10 +1,10 @@
-// Maps over flank and face: their rectangles hold the result's numbers, and gnuplot draws them for any number of heights
-// and slices.
+// Maps over flank and face: their rectangles hold the result's numbers, and gnuplot draws them for any number
+// of heights and slices.
 
 #include "strainwave/model/export/flank_figures.hpp"
 
-#include "tests/model/export/folder.hpp"
 #include "strainwave/model/forward/forward.hpp"
+#include "tests/model/export/folder.hpp"
 
 #include <sstream>
 

@@ -2,8 +2,8 @@
 
 #include "strainwave/model/export/cup_grid.hpp"
 
-#include "tests/model/flexspline/bodies.hpp"
 #include "tests/model/export/folder.hpp"
+#include "tests/model/flexspline/bodies.hpp"
 
 #include <array>
 #include <cmath>

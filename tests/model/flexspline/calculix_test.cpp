@@ -3,9 +3,9 @@
 
 #include "strainwave/model/flexspline/calculix.hpp"
 
-#include "tests/model/flexspline/bodies.hpp"
 #include "strainwave/model/flexspline/cyclic.hpp"
 #include "strainwave/model/flexspline/responses.hpp"
+#include "tests/model/flexspline/bodies.hpp"
 
 #include <cmath>
 #include <cstdlib>

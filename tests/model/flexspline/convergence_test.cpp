@@ -1,7 +1,7 @@
 // Refinement of the seed cup: D converges, and how fast.
 
-#include "tests/model/flexspline/bodies.hpp"
 #include "strainwave/model/flexspline/responses.hpp"
+#include "tests/model/flexspline/bodies.hpp"
 
 #include <cmath>
 #include <cstdio>

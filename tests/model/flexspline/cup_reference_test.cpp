@@ -3,8 +3,8 @@
 // responses at the loaded place itself (k = 0) differ by the footprint and are left out; everything further
 // away must agree.
 
-#include "tests/model/flexspline/bodies.hpp"
 #include "strainwave/model/flexspline/responses.hpp"
+#include "tests/model/flexspline/bodies.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "strainwave/model/flexspline/functionals.hpp"
 
-#include "tests/model/flexspline/bodies.hpp"
 #include "strainwave/model/flexspline/responses.hpp"
 #include "strainwave/model/flexspline/ring.hpp"
+#include "tests/model/flexspline/bodies.hpp"
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
 #include "strainwave/model/flexspline/mesh.hpp"
 
-#include "tests/model/flexspline/bodies.hpp"
 #include "strainwave/model/flexspline/element.hpp"
 #include "strainwave/model/flexspline/ring.hpp"
 #include "strainwave/model/flexspline/tooth_outline.hpp"
+#include "tests/model/flexspline/bodies.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -123,7 +123,8 @@ TEST(SectorMesh, an_open_part_has_its_own_last_plane) {
   EXPECT_EQ(part.nodes(), 3 * mesh.owned() + static_cast<int>(mesh.right.size()));
   const std::vector<CartesianPoint> points = part.points();
   for (const int right : mesh.right) {
-    const CartesianPoint expected = mesh.node(right, 2), found = points[static_cast<std::size_t>(part.node(right, 2))];
+    const CartesianPoint expected = mesh.node(right, 2),
+                         found = points[static_cast<std::size_t>(part.node(right, 2))];
     EXPECT_NEAR(found.x, expected.x, 1e-12);
     EXPECT_NEAR(found.y, expected.y, 1e-12);
   }

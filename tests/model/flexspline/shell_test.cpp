@@ -1,8 +1,8 @@
 // Rings and cylinders with closed solutions: tests/reference/benchmarks.json.
 
-#include "tests/model/flexspline/bodies.hpp"
 #include "strainwave/model/flexspline/cyclic.hpp"
 #include "strainwave/model/flexspline/ring.hpp"
+#include "tests/model/flexspline/bodies.hpp"
 
 #include <cmath>
 #include <fstream>

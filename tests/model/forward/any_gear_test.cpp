@@ -2,8 +2,8 @@
 
 #include "tests/model/forward/any_gear.hpp"
 
-#include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/export/result_json.hpp"
+#include "strainwave/model/forward/forward.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -22,8 +22,8 @@ ForwardModel& model() {
   return shared;
 }
 
-/// What a number in JSON may not be: null stands for NaN there. Only gaps between flanks that do not overlap have one, the
-/// zone of a load without contact, and the wedge of a free gear.
+/// What a number in JSON may not be: null stands for NaN there. Only gaps between flanks that do not overlap
+/// have one, the zone of a load without contact, and the wedge of a free gear.
 void expect_numbers(const nlohmann::ordered_json& json, const std::string& path) {
   if (json.is_null()) {
     const bool may_be_missing = path.find("/backlash/") != std::string::npos ||

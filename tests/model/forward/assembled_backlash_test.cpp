@@ -1,11 +1,12 @@
-// Backlash over φ and face of the coned cup: the independent figures of three sections, and what results say of it.
+// Backlash over φ and face of the coned cup: the independent figures of three sections, and what results say
+// of it.
 
-#include "strainwave/model/flexspline/responses.hpp"
-#include "strainwave/model/meshing/assembled_backlash.hpp"
-#include "strainwave/model/forward/forward.hpp"
-#include "strainwave/model/flexspline/response_request.hpp"
-#include "strainwave/model/meshing/gear_surface.hpp"
 #include "strainwave/model/export/result_json.hpp"
+#include "strainwave/model/flexspline/response_request.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
+#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/meshing/assembled_backlash.hpp"
+#include "strainwave/model/meshing/gear_surface.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,8 +17,9 @@ namespace strainwave {
 namespace {
 
 TEST(AssembledBacklash, FallsFromTheRearToTheFrontOfTheDiscsAsAnIndependentModelSays) {
-  // Linear finite elements, another program: +3.8 µm at the rear edge of the discs, −3.2 µm mid face, −11.5 µm at the front
-  // edge, printed with one digit; meshes differ, and 1 µm of radial displacement is worth 0.45 µm of backlash.
+  // Linear finite elements, another program: +3.8 µm at the rear edge of the discs, −3.2 µm mid face, −11.5
+  // µm at the front edge, printed with one digit; meshes differ, and 1 µm of radial displacement is worth
+  // 0.45 µm of backlash.
   const Gear gear = seed_gear();
   const UnitResponses responses = unit_responses(response_request(gear)).value();
   const RingCompliance ring(responses, contact_rows(gear), true);

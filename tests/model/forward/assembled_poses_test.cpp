@@ -1,5 +1,6 @@
-// Poses of the coned cup against a nonlinear solution: run n2z of reference/assembly.json (large deformation, edge contact at
-// the spatial disc edges), smooth cup, five sections, φ ≤ 20°. The figures are what small displacements can give.
+// Poses of the coned cup against a nonlinear solution: run n2z of reference/assembly.json (large deformation,
+// edge contact at the spatial disc edges), smooth cup, five sections, φ ≤ 20°. The figures are what small
+// displacements can give.
 
 #include "strainwave/model/flexspline/responses.hpp"
 #include "strainwave/model/meshing/flank_points.hpp"
@@ -64,7 +65,8 @@ std::array<Difference, 5> differences(double up_to_deg) {
   return all;
 }
 
-/// Largest over the sections; every section's figures go into the test's record, as docs/flank-contact.md has them.
+/// Largest over the sections; every section's figures go into the test's record, as docs/flank-contact.md has
+/// them.
 Difference largest_difference(double up_to_deg) {
   Difference largest;
   const auto all = differences(up_to_deg);

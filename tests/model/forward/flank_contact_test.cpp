@@ -1,11 +1,12 @@
-// Contact over flank and face: the selection of points misses none, one point is the source text's model, forces converge.
+// Contact over flank and face: the selection of points misses none, one point is the source text's model,
+// forces converge.
 
-#include "strainwave/model/flexspline/responses.hpp"
-#include "strainwave/model/meshing/flank_points.hpp"
-#include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/flexspline/response_request.hpp"
-#include "strainwave/model/meshing/gear_surface.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
+#include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/loading/phase_model.hpp"
+#include "strainwave/model/meshing/flank_points.hpp"
+#include "strainwave/model/meshing/gear_surface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -77,7 +78,8 @@ TEST(FlankContact, GapsAreTakenWhereTheHatsMeasure) {
   // the tip's half hat: centroid of 1 − x/step over [0, step] is a third of it; every other height is its own
   EXPECT_DOUBLE_EQ(gap_height(4, 5), 1.0 - 0.25 / 3.0);
   EXPECT_DOUBLE_EQ(gap_height(3, 5), 0.75);
-  // so the first contact, at the tip's edge, turns alike for few and for many heights (0.1 %; with the gap at the very tip 0.9 %)
+  // so the first contact, at the tip's edge, turns alike for few and for many heights (0.1 %; with the gap at
+  // the very tip 0.9 %)
   ForwardModel model({.disk_cache = false});
   const auto rotation = [&](int heights) {
     Gear gear = many_points(heights, 1);

@@ -1,5 +1,5 @@
-// Derivatives of forward results against central differences of whole analyses: their error has to fall with the square of
-// the step, down to the rounding of an analysis.
+// Derivatives of forward results against central differences of whole analyses: their error has to fall with
+// the square of the step, down to the rounding of an analysis.
 
 #include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/forward/gradient.hpp"
@@ -45,7 +45,8 @@ struct Number {
   double noise; ///< rounding of one value
 };
 
-/// The result's numbers; slopes of parameter j where a gradient is given. `peak`: the tooth (line) and phase to watch.
+/// The result's numbers; slopes of parameter j where a gradient is given. `peak`: the tooth (line) and phase
+/// to watch.
 std::vector<Number> numbers(const ForwardResult& r, const ForwardGradient* g, Eigen::Index j,
                             std::vector<std::pair<std::size_t, std::size_t>>& peak) {
   std::vector<Number> list;

@@ -1,9 +1,9 @@
-// Contact pressure: textbook numbers for two cylinders, the limits of a nearly conforming flank, and a seed-gear tooth
-// computed by hand from involute radii.
+// Contact pressure: textbook numbers for two cylinders, the limits of a nearly conforming flank, and a
+// seed-gear tooth computed by hand from involute radii.
 
+#include "strainwave/model/export/result_json.hpp"
 #include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/meshing/pressure.hpp"
-#include "strainwave/model/export/result_json.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,8 +16,8 @@ namespace strainwave {
 namespace {
 
 TEST(LineContact, TwoSteelCylindersHaveTheTextbooksPressureAndWidth) {
-  // Steel on steel, ν = 0.3 (Roark's table for cylinders, Niemann): p0 = 0.418 √(w E/R), width 2 b = 2.15 √(w K/E) with
-  // K = D1 D2/(D1 + D2) = 2 R. The printed constants have three digits.
+  // Steel on steel, ν = 0.3 (Roark's table for cylinders, Niemann): p0 = 0.418 √(w E/R), width 2 b = 2.15 √(w
+  // K/E) with K = D1 D2/(D1 + D2) = 2 R. The printed constants have three digits.
   const Material steel{.youngs_modulus_mpa = 206000.0, .poisson_ratio = 0.3};
   const double r1 = 20.0, r2 = 30.0, w = 500.0;
   const double r = 1.0 / (1.0 / r1 + 1.0 / r2);
@@ -45,8 +45,8 @@ TEST(LineContact, NeverSpreadsOverMoreThanItsShare) {
 }
 
 TEST(FlankPressure, OneToothByHand) {
-  // One point, 12 N circumferential, flank radius 14.5, contact radius 14.7: tangents to the base circles 14 cos 20° and
-  // 14.2 cos 20°; N = F/cos α, w = N/6 mm; Johnson's formulas in their √(w E*/(π R)) form.
+  // One point, 12 N circumferential, flank radius 14.5, contact radius 14.7: tangents to the base circles 14
+  // cos 20° and 14.2 cos 20°; N = F/cos α, w = N/6 mm; Johnson's formulas in their √(w E*/(π R)) form.
   const Gear gear = seed_gear();
   const LoadedPoint point{.tooth = 0, .contact_radius_mm = 14.7, .flank_radius_mm = 14.5, .z_mm = 24.5};
   const double cosine = std::cos(20.0 * std::numbers::pi / 180.0);

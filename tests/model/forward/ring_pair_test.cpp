@@ -1,8 +1,8 @@
-// Samples of the whole ring against the general solver on the whole problem, against the forward model, and the tangent
-// against exact contact.
+// Samples of the whole ring against the general solver on the whole problem, against the forward model, and
+// the tangent against exact contact.
 
-#include "strainwave/model/lcp/sampled_contact.hpp"
 #include "strainwave/model/forward/ring_pair.hpp"
+#include "strainwave/model/lcp/sampled_contact.hpp"
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,8 @@ TEST(SampledContact, NominalSampleOfTheRingIsTheForwardModelsLoad) {
   ASSERT_FALSE(solver.solve_torque({q, r, {}}, 7000.0, state));
   EXPECT_EQ(state.changed_stations, 0);
   EXPECT_FALSE(state.fallback);
-  // both end their Newton steps below 1e-11 mm of the wall's gap, whose sums over some hundred stations move θ R by 1e-10
+  // both end their Newton steps below 1e-11 mm of the wall's gap, whose sums over some hundred stations move
+  // θ R by 1e-10
   EXPECT_NEAR(state.rotation, load.rotation_rad, 1e-9 / 14.7);
   EXPECT_NEAR(*std::max_element(state.force.begin(), state.force.end()), load.peak_force_n,
               1e-7 * load.peak_force_n);

@@ -1,7 +1,7 @@
-// The seed gear from file numbers to torques, against three independent columns (physics of the seed gear, section "what
-// the source text reports"). They load every tooth at its tip edge; the forward model loads each tooth at its own contact
-// height, which leaves the torque and moves the peak: with the same heights the peaks are compared in
-// tests/model/contact/toothed_cup_test.cpp.
+// The seed gear from file numbers to torques, against three independent columns (physics of the seed gear,
+// section "what the source text reports"). They load every tooth at its tip edge; the forward model loads
+// each tooth at its own contact height, which leaves the torque and moves the peak: with the same heights the
+// peaks are compared in tests/model/contact/toothed_cup_test.cpp.
 
 #include "strainwave/model/forward/forward.hpp"
 

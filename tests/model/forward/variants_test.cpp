@@ -1,7 +1,7 @@
 // Every way a gear file can ask for: shapes, directions, phases, odd teeth, one lobe, gears without a result.
 
-#include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/export/result_json.hpp"
+#include "strainwave/model/forward/forward.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -33,7 +33,8 @@ TEST(Variants, CoastAtPhaseZeroIsTheMirrorImageOfDrive) {
 }
 
 TEST(Variants, CoastAtOtherPhasesMirrorsThePhaseToo) {
-  // Over the phases of one pitch drive and coast see the same set of mirrored problems, so the worst peak is the same.
+  // Over the phases of one pitch drive and coast see the same set of mirrored problems, so the worst peak is
+  // the same.
   Gear gear = seed_gear();
   gear.load.direction = Direction::both;
   gear.load.torque_nm = {7.0};
@@ -74,7 +75,8 @@ TEST(Variants, EveryShapeWithASurfaceAnalyses) {
     const ForwardResult result = model().analyze(gear);
     EXPECT_EQ(result.status, Status::ok) << static_cast<int>(shape) << ": " << result.message;
     EXPECT_GT(result.assembly->contact_force_n, 10.0);
-    // every one of them is given u0 = 0.2 mm; the front of the coned cup stands further out than its rear edge
+    // every one of them is given u0 = 0.2 mm; the front of the coned cup stands further out than its rear
+    // edge
     EXPECT_NEAR(result.assembly->radial_deformation_mm, 0.2, 0.03) << static_cast<int>(shape);
   }
 }
@@ -124,7 +126,8 @@ TEST(Variants, OddNumberOfTeethTreatsBothLobesUnfolded) {
 }
 
 TEST(Variants, UnfoldedEvenRingGivesTheFoldedForces) {
-  // lobes = 2 folds an even ring; the unfolded ring with both lobes loaded must agree. One lobe alone is softer.
+  // lobes = 2 folds an even ring; the unfolded ring with both lobes loaded must agree. One lobe alone is
+  // softer.
   Gear gear = seed_gear();
   gear.load.torque_nm = {3.0};
   const ForwardResult two = model().analyze(gear);

@@ -1,13 +1,14 @@
-// Drive and coast flanks together: signs, mirror symmetry, wedged gears at rest, against solutions by other methods.
+// Drive and coast flanks together: signs, mirror symmetry, wedged gears at rest, against solutions by other
+// methods.
 
-#include "strainwave/model/flexspline/responses.hpp"
-#include "strainwave/model/meshing/flank_points.hpp"
-#include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/export/result_json.hpp"
 #include "strainwave/model/flexspline/response_request.hpp"
-#include "strainwave/model/meshing/gear_surface.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
+#include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/loading/load_cases.hpp"
 #include "strainwave/model/loading/phase_model.hpp"
-#include "strainwave/model/export/result_json.hpp"
+#include "strainwave/model/meshing/flank_points.hpp"
+#include "strainwave/model/meshing/gear_surface.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -82,8 +83,8 @@ double sum(const std::vector<double>& forces) {
 }
 
 TEST(Wedge, TurningBackIsTheMirrorImageOfTurningForwards) {
-  // No symmetry of the finite elements is used anywhere: the coast flank has its own hats. What a rotation of −θ does
-  // on the coast flanks must be what θ does on the drive flanks.
+  // No symmetry of the finite elements is used anywhere: the coast flank has its own hats. What a rotation of
+  // −θ does on the coast flanks must be what θ does on the drive flanks.
   for (const ForceDirection direction : {ForceDirection::circumferential, ForceDirection::flank_normal}) {
     const Pair pair(seed_with(2.19, direction), 0.0);
     const PhaseModel model = pair.model();
@@ -110,8 +111,8 @@ TEST(Wedge, AForceOnTheCoastFlankTurnsTheToothForwards) {
       same = &point;
   ASSERT_NE(same, nullptr);
   const auto functionals = tooth_functionals(pair.ring, std::vector<LoadedPoint>{drive, *same});
-  // F on the tooth is minus the functional: a coast force moves the drive flank out along its own normal (towards larger
-  // φ), and a drive force moves it back, further than the coast force on the far side does.
+  // F on the tooth is minus the functional: a coast force moves the drive flank out along its own normal
+  // (towards larger φ), and a drive force moves it back, further than the coast force on the far side does.
   const Eigen::VectorXd by_coast =
       pair.ring.tooth_displacement(functionals, functionals, Eigen::VectorXd(-Eigen::VectorXd::Unit(2, 1)));
   const Eigen::VectorXd by_drive =
@@ -188,8 +189,8 @@ TEST(Wedge, RestEqualsProjectedGaussSeidelWithABisectedRotation) {
 }
 
 TEST(Wedge, OnePairOfFlanksIsAClosedFormAndLinearInTheOverlap) {
-  // x2 so that two teeth alone overlap: tooth 2 on the drive flank, tooth −2 on the coast flank. By symmetry both carry F
-  // at θ = 0: (D_dd + D_dc) F = −c.
+  // x2 so that two teeth alone overlap: tooth 2 on the drive flank, tooth −2 on the coast flank. By symmetry
+  // both carry F at θ = 0: (D_dd + D_dc) F = −c.
   Gear gear = seed_with(2.137);
   gear.contact.fidelity = Fidelity::linear;
   double least_overlap = 0.0;

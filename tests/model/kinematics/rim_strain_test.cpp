@@ -1,4 +1,5 @@
-// Bending strain of the rim against closed forms: a ring bent to cos 2φ, and the first integral of the elastica.
+// Bending strain of the rim against closed forms: a ring bent to cos 2φ, and the first integral of the
+// elastica.
 
 #include "strainwave/model/kinematics/rim_strain.hpp"
 

@@ -1,4 +1,5 @@
-// Drive and coast flanks in one problem (r of both signs): free gears with play, wedged gears in balance at no torque.
+// Drive and coast flanks in one problem (r of both signs): free gears with play, wedged gears in balance at
+// no torque.
 
 #include "strainwave/model/lcp/derivative.hpp"
 #include "strainwave/model/lcp/march.hpp"
@@ -15,7 +16,8 @@ namespace {
 
 using namespace contact_problems;
 
-/// random_spd with every second of the carrying indices turned into a coast flank; gaps shifted: shift < 0 wedges.
+/// random_spd with every second of the carrying indices turned into a coast flank; gaps shifted: shift < 0
+/// wedges.
 ContactProblem both_flanks(int n, unsigned seed, double shift, int supports = 0) {
   ContactProblem p = random_spd(n, n + 2, 0.1, seed, supports);
   for (int i = supports; i < n; ++i) {

@@ -182,8 +182,9 @@ TEST(ToleranceModel, WidthOfSpacesIsAProfileShift) {
       });
 }
 
-// Uniform wear w turns the involute by w / r_b: that of the space towards larger angles, that of the tooth backwards. Its
-// ends go along the normal with it, to a radius that differs by some 0.3 w, where the gap of the teeth that can carry load differs by up to 0.01 w.
+// Uniform wear w turns the involute by w / r_b: that of the space towards larger angles, that of the tooth
+// backwards. Its ends go along the normal with it, to a radius that differs by some 0.3 w, where the gap of
+// the teeth that can carry load differs by up to 0.01 w.
 TEST(ToleranceModel, WearTurnsTheDriveFlank) {
   for (const Member member : {Member::flexspline, Member::circular_spline}) {
     const ToleranceModel model = model_of({{.kind = ToleranceKind::wear, .member = member}});
@@ -210,7 +211,8 @@ TEST(ToleranceModel, WearTurnsTheDriveFlank) {
   }
 }
 
-// A profile slope in the words of gear keys: −a (h − ½) = a (1 − h) − a/2, a slope below 0 and less of a constant.
+// A profile slope in the words of gear keys: −a (h − ½) = a (1 − h) − a/2, a slope below 0 and less of a
+// constant.
 TEST(ToleranceModel, ProfileSlopeIsASlopeAndAnOffset) {
   Gear worn = gear();
   worn.flank_modification.flexspline.spline_um = {20.0};

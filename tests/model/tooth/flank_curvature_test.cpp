@@ -12,7 +12,8 @@
 namespace strainwave {
 namespace {
 
-/// Signed curvature of the circle through three points: four times the area of their triangle over the product of its sides.
+/// Signed curvature of the circle through three points: four times the area of their triangle over the
+/// product of its sides.
 double circle(const std::array<PolarPoint, 3>& p) {
   std::array<double, 3> x{}, y{};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -1,5 +1,5 @@
-// Derivatives of a single contact: against those of the whole backlash table, and against central differences where the table
-// has none (fixed heights, height of the contact, direction of the normal, the coast flank).
+// Derivatives of a single contact: against those of the whole backlash table, and against central differences
+// where the table has none (fixed heights, height of the contact, direction of the normal, the coast flank).
 
 #include "strainwave/model/tooth/backlash_gradient.hpp"
 #include "strainwave/model/tooth/flank_slopes.hpp"
@@ -117,7 +117,8 @@ TEST(FlankSlopes, HeightOfAnInnerContactMovesWithTheReliefThatPushesItDown) {
 }
 
 TEST(FlankSearch, BreaksOfTwoReliefsAtOnePlaceAreOneKink) {
-  // Both start in the middle of the flank by default; the contact there stays at the kink, whichever way the pose moves.
+  // Both start in the middle of the flank by default; the contact there stays at the kink, whichever way the
+  // pose moves.
   Gear gear = seed_gear();
   gear.flank_modification.flexspline.tip_relief_um = 2.0;
   gear.flank_modification.flexspline.root_relief_um = 1.0;

@@ -1,5 +1,5 @@
-// The bound of real gears, on a coarse cup: never above what a design reaches, and the plain bound where there is nothing to
-// lump.
+// The bound of real gears, on a coarse cup: never above what a design reaches, and the plain bound where
+// there is nothing to lump.
 
 #include "strainwave/optimize/gear/gear_bound.hpp"
 

@@ -56,11 +56,12 @@ TEST(GearEvaluator, OddNumberOfTeethKeepsBothLobesApart) {
   Gear gear = coarse_gear();
   gear.flexspline.teeth = 141;
   gear.circular_spline.teeth = 143;
-  for (double* radius : {&gear.flexspline.tip_radius_mm, &gear.flexspline.root_radius_mm,
-                         &gear.flexspline.neutral_radius_mm, &gear.circular_spline.tip_radius_mm,
-                         &gear.circular_spline.root_radius_mm})
+  for (double* radius :
+       {&gear.flexspline.tip_radius_mm, &gear.flexspline.root_radius_mm, &gear.flexspline.neutral_radius_mm,
+        &gear.circular_spline.tip_radius_mm, &gear.circular_spline.root_radius_mm})
     *radius += 0.1;
-  GearEvaluator evaluator(gear, u0_design(), {{.torque_nm = {7.0}, .rotation_rad = {}}}, {.disk_cache = false});
+  GearEvaluator evaluator(gear, u0_design(), {{.torque_nm = {7.0}, .rotation_rad = {}}},
+                          {.disk_cache = false});
   const Evaluation e = evaluator.evaluate(std::vector{0.2});
   ASSERT_TRUE(e.ok) << e.message;
   EXPECT_GT(value(e, "peak_force_n"), 0.0);

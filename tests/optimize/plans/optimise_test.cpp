@@ -1,8 +1,8 @@
 // The whole: starts, searches, confirmation, verdict.
 
-#include "strainwave/optimize/problem/evaluation_store.hpp"
 #include "strainwave/optimize/plans/global_then_polish.hpp"
 #include "strainwave/optimize/plans/optimise.hpp"
+#include "strainwave/optimize/problem/evaluation_store.hpp"
 #include "tests/optimize/function_evaluator.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "strainwave/optimize/problem/evaluation_store.hpp"
 #include "strainwave/common/threads/parallel.hpp"
+#include "strainwave/optimize/problem/evaluation_store.hpp"
 #include "tests/optimize/function_evaluator.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The checker of derivatives on functions whose derivatives are known, with one entry falsified, and at kinks; and on the seed
-// gear.
+// The checker of derivatives on functions whose derivatives are known, with one entry falsified, and at
+// kinks; and on the seed gear.
 
 #include "strainwave/optimize/gear/gear_evaluator.hpp"
 #include "strainwave/optimize/problem/gradient_check.hpp"
@@ -142,7 +142,8 @@ TEST(GradientCheck, AgreesWithAllResponsesOfTheSeedGearWithLinksAndSeveralLoads)
 }
 
 TEST(GradientCheck, AgreesOverTheWholeFlankWithForcesAlongItsNormal) {
-  // Loaded tip edges beside loaded flanks, knots of the free form on the heights, slices with flanks of their own.
+  // Loaded tip edges beside loaded flanks, knots of the free form on the heights, slices with flanks of their
+  // own.
   for (const GapModel gaps : {GapModel::kinematic, GapModel::assembled}) {
     Gear gear = coarse_seed();
     gear.contact.flank_points = 5;

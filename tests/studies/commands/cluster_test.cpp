@@ -1,5 +1,5 @@
-// The recipes of studies/cluster, tried with the real tools: a shard is killed, run again, and the joined study is the
-// uninterrupted one, bit for bit. Skipped where a tool is not installed.
+// The recipes of studies/cluster, tried with the real tools: a shard is killed, run again, and the joined
+// study is the uninterrupted one, bit for bit. Skipped where a tool is not installed.
 
 #include "tests/studies/study_shell.hpp"
 

@@ -1,5 +1,5 @@
-// Killed at random moments, disks that are full, folders that cannot be written, two writers: nothing is lost but what was
-// in flight, and what comes out in the end is the uninterrupted study, bit for bit.
+// Killed at random moments, disks that are full, folders that cannot be written, two writers: nothing is lost
+// but what was in flight, and what comes out in the end is the uninterrupted study, bit for bit.
 
 #include "tests/studies/study_shell.hpp"
 
@@ -11,7 +11,8 @@ namespace {
 
 class StudyCrash : public StudyShell {
 protected:
-  /// `study` is killed `kills` times; whenever it gets to its end in between, the result is compared and a new one begins.
+  /// `study` is killed `kills` times; whenever it gets to its end in between, the result is compared and a
+  /// new one begins.
   void kill_again_and_again(const std::string& study, int kills, double longest_s) {
     ASSERT_EQ(shell("PROGRAM study run " + study + " --out whole").code, 0);
     std::mt19937 random(static_cast<unsigned>(kills) + 17u);

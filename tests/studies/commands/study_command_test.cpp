@@ -59,7 +59,8 @@ TEST_F(StudyCommand, EveryReducedStudyOfTheGalleryEndsWithADesign) {
 }
 
 TEST_F(StudyCommand, TimeLimitStopsWith75) {
-  const End end = shell("PROGRAM study run " + gallery + "seed_optimize_one_point.toml --time-limit 0.2 --threads 1");
+  const End end =
+      shell("PROGRAM study run " + gallery + "seed_optimize_one_point.toml --time-limit 0.2 --threads 1");
   EXPECT_EQ(end.code, 75) << end.err;
   EXPECT_NE(end.err.find("stopped"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(folder / "seed_optimize_one_point-result/plan.json"));
@@ -71,7 +72,8 @@ TEST_F(StudyCommand, FolderOfAnotherStudyIsRefusedAndFinishedResultsAreAnsweredF
   const End whole = shell(first);
   ASSERT_EQ(whole.code, 0);
   const std::string best = file_text((folder / "kept/best.toml").string());
-  const End other = shell("PROGRAM study run " + gallery + "seed_optimize_one_point.toml --reduced --out kept");
+  const End other =
+      shell("PROGRAM study run " + gallery + "seed_optimize_one_point.toml --reduced --out kept");
   EXPECT_EQ(other.code, 2);
   EXPECT_NE(other.err.find("another study"), std::string::npos) << other.err;
   const End again = shell(first);
@@ -138,8 +140,10 @@ TEST_F(StudyCommand, NoFeasibleDesignEndsWith3AndShowsTheNearest) {
 
 TEST_F(StudyCommand, FolderThatCannotBeMadeEndsWith74) {
   folder.write("taken", "a file");
-  EXPECT_EQ(shell("PROGRAM study run " + gallery + "seed_optimize_one_point.toml --reduced --out taken/results").code,
-            74);
+  EXPECT_EQ(
+      shell("PROGRAM study run " + gallery + "seed_optimize_one_point.toml --reduced --out taken/results")
+          .code,
+      74);
 }
 
 } // namespace

@@ -1,4 +1,5 @@
-// The JSON Schema of study files, judged by an independent validator (python3-jsonschema), and the reference page.
+// The JSON Schema of study files, judged by an independent validator (python3-jsonschema), and the reference
+// page.
 
 #include "strainwave/studies/file/schema.hpp"
 

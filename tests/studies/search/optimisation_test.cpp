@@ -1,13 +1,13 @@
 // A study of kind "optimize" from the file to the judged optimum.
 
-#include "strainwave/model/gear_file/gear_file.hpp"
 #include "strainwave/common/files/content_hash.hpp"
-#include "strainwave/studies/search/optimisation.hpp"
-#include "strainwave/studies/search/text.hpp"
-#include "strainwave/studies/search/results_file.hpp"
-#include "tests/studies/studies.hpp"
+#include "strainwave/model/gear_file/gear_file.hpp"
 #include "strainwave/studies/commands/kinds.hpp"
 #include "strainwave/studies/file/study_gear.hpp"
+#include "strainwave/studies/search/optimisation.hpp"
+#include "strainwave/studies/search/results_file.hpp"
+#include "strainwave/studies/search/text.hpp"
+#include "tests/studies/studies.hpp"
 
 #include <gtest/gtest.h>
 #include <hdf5.h>

@@ -1,5 +1,5 @@
-// The lasting store of a search: what is written is read back, and a search that was stopped or killed ends with the bits
-// of an uninterrupted one.
+// The lasting store of a search: what is written is read back, and a search that was stopped or killed ends
+// with the bits of an uninterrupted one.
 
 #include "strainwave/studies/search/journal.hpp"
 

@@ -155,7 +155,8 @@ TEST_F(SweepCommand, WrongUseEndsWith2) {
     EXPECT_EQ(end.code, 2) << shard;
     EXPECT_NE(end.err.find("--shard wants I/N"), std::string::npos) << end.err;
   }
-  const End search = shell("PROGRAM study run " + gallery + "seed_optimize_one_point.toml --reduced --shard 0/2");
+  const End search =
+      shell("PROGRAM study run " + gallery + "seed_optimize_one_point.toml --reduced --shard 0/2");
   EXPECT_EQ(search.code, 2);
   EXPECT_NE(search.err.find("chooses every point by the ones before it"), std::string::npos) << search.err;
   EXPECT_EQ(shell("PROGRAM study status .").code, 2);

@@ -1,4 +1,5 @@
-// Rows of samples against one gear at a time: its own assembly, direct geometry and Newton steps on the whole ring.
+// Rows of samples against one gear at a time: its own assembly, direct geometry and Newton steps on the whole
+// ring.
 
 #include "strainwave/model/meshing/gear_surface.hpp"
 #include "tests/studies/tolerances/sampled_rows.hpp"
@@ -13,7 +14,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// One gear as it is, on the whole ring: discs by assembly and Newton steps, pitch errors [µm] put into the direct geometry.
+/// One gear as it is, on the whole ring: discs by assembly and Newton steps, pitch errors [µm] put into the
+/// direct geometry.
 struct OneGear {
   double u0 = 0.2, e = 0.6, x2 = 2.19;
   std::span<const double> pitch1 = {}, pitch2 = {}; ///< of 140 teeth and 142 spaces, or none
@@ -65,13 +67,15 @@ TEST(SampledGear, DiscsAreRightToSecondOrder) {
     const Loaded exact = exact_load(gear->mesh(), {.u0 = row[0], .e = row[1]});
     const double rotation = rows(0, "rotation_rad") / exact.rotation_rad - 1.0;
     const double peak = rows(0, "peak_force_n") / exact.peak_n - 1.0;
-    // measured: 1.4e-6 and 7e-5; 4e-7 and 1.1e-5. With the interpolant's kinks (0.003 µm) on top of the second order.
+    // measured: 1.4e-6 and 7e-5; 4e-7 and 1.1e-5. With the interpolant's kinks (0.003 µm) on top of the
+    // second order.
     EXPECT_LT(std::abs(rotation), 1e-5 * size);
     EXPECT_LT(std::abs(peak), 3e-4 * size);
   }
 }
 
-// Pitch errors put into the direct geometry tooth by tooth, the whole ring solved by the forward model's own pieces.
+// Pitch errors put into the direct geometry tooth by tooth, the whole ring solved by the forward model's own
+// pieces.
 TEST(SampledGear, ErrorsOfSingleTeethAreThoseOfTheDirectGeometry) {
   StudyFile study = teeth_study();
   study.sources.resize(2);
@@ -88,7 +92,8 @@ TEST(SampledGear, ErrorsOfSingleTeethAreThoseOfTheDirectGeometry) {
   }
 }
 
-// Everything at once, as in the gallery: random gears against their own assembly, direct geometry and Newton steps.
+// Everything at once, as in the gallery: random gears against their own assembly, direct geometry and Newton
+// steps.
 TEST(SampledGearNightly, RandomGearsAreTheirOwnExactSolutions) {
   StudyFile study = teeth_study();
   study.sources.resize(2);

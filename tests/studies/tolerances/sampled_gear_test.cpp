@@ -1,10 +1,10 @@
-// Rows of samples against the forward model on the gear that a row describes, and against direct geometry and the general
-// solver for errors of single teeth.
+// Rows of samples against the forward model on the gear that a row describes, and against direct geometry and
+// the general solver for errors of single teeth.
 
 #include "strainwave/model/forward/forward.hpp"
 
-#include "tests/studies/tolerances/sampled_rows.hpp"
 #include "strainwave/studies/tolerances/monte_carlo.hpp"
+#include "tests/studies/tolerances/sampled_rows.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -55,7 +55,8 @@ TEST(SampledGear, OtherDiscsClearanceAndTorqueAreTheForwardModelsGears) {
     const ForwardResult exact = model.analyze(direct);
     ASSERT_EQ(exact.status, Status::ok) << exact.message;
     const LoadResult& load = exact.load[0];
-    // Rows keep the compliance of the nominal contact heights, which move with u0: 0.5 % of the peak for a micrometre.
+    // Rows keep the compliance of the nominal contact heights, which move with u0: 0.5 % of the peak for a
+    // micrometre.
     const double moved_um = 1e3 * std::abs(sample[0] - 0.2);
     EXPECT_NEAR(rows(0, "rotation_rad"), load.rotation_rad, (1e-5 + 1e-4 * moved_um) * load.rotation_rad);
     EXPECT_NEAR(rows(0, "peak_force_n"), load.peak_force_n, (1e-5 + 6e-3 * moved_um) * load.peak_force_n);

@@ -1,10 +1,10 @@
 #pragma once
 // Tolerance studies of the seed gear for tests, and their rows.
 
-#include "strainwave/studies/tolerances/sampled_gear.hpp"
-#include "tests/studies/tolerances/cup_cache.hpp"
 #include "strainwave/studies/tolerances/monte_carlo.hpp"
 #include "strainwave/studies/tolerances/outputs.hpp"
+#include "strainwave/studies/tolerances/sampled_gear.hpp"
+#include "tests/studies/tolerances/cup_cache.hpp"
 
 #include <string>
 #include <utility>

@@ -32,8 +32,8 @@ TEST_P(SampledVariant, ASampleWithoutErrorsIsTheAnalysis) {
   const LoadResult& load = exact.load[0];
   const bool listed_twice = std::ranges::any_of(load.phi_deg, [](double phi) { return phi > 90.0 + 1e-9; });
   const int lobes = study.gear.contact.lobes == 2 && !listed_twice ? 2 : 1;
-  // One lobe alone tilts the cup, whose turning wall forces nearly push it over: the Newton steps that leave 1e-11 mm of the
-  // wall's gap then end some 1e-7 mm from each other.
+  // One lobe alone tilts the cup, whose turning wall forces nearly push it over: the Newton steps that leave
+  // 1e-11 mm of the wall's gap then end some 1e-7 mm from each other.
   const double tolerance = study.gear.contact.lobes == 2 ? 1e-7 : 1e-5;
   EXPECT_NEAR(rows(0, "rotation_rad"), load.rotation_rad, tolerance * load.rotation_rad);
   EXPECT_NEAR(rows(0, "peak_force_n"), load.peak_force_n, 10.0 * tolerance * load.peak_force_n);

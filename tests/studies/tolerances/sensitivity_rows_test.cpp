@@ -1,15 +1,16 @@
-// Sensitivity rows of the gear against closed forms. Errors that are alike on all spaces of the circular spline turn its
-// drive flanks as a whole: by 2 Δx2 tan α/z2 for its profile shift and ds/(2 r2) for wider spaces, which is what the
-// rotation under load changes by, exactly, and no force changes. So indices and elasticities of the rotation are known.
+// Sensitivity rows of the gear against closed forms. Errors that are alike on all spaces of the circular
+// spline turn its drive flanks as a whole: by 2 Δx2 tan α/z2 for its profile shift and ds/(2 r2) for wider
+// spaces, which is what the rotation under load changes by, exactly, and no force changes. So indices and
+// elasticities of the rotation are known.
 
-#include "strainwave/studies/tolerances/sampled_gear.hpp"
 #include "strainwave/common/statistics/morris.hpp"
 #include "strainwave/common/statistics/sobol_indices.hpp"
 #include "strainwave/common/statistics/summary.hpp"
+#include "strainwave/studies/tolerances/sampled_gear.hpp"
 
-#include "tests/studies/tolerances/cup_cache.hpp"
 #include "strainwave/studies/tolerances/monte_carlo.hpp"
 #include "strainwave/studies/tolerances/sensitivity.hpp"
+#include "tests/studies/tolerances/cup_cache.hpp"
 
 #include <gtest/gtest.h>
 

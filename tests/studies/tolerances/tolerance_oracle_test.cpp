@@ -1,11 +1,12 @@
-// Monte Carlo and Sobol' indices of contact against a second implementation: tests/reference/tolerance_openturns.py (its
-// draws, its contact solver, its statistics; the compliance alone is shared).
+// Monte Carlo and Sobol' indices of contact against a second implementation:
+// tests/reference/tolerance_openturns.py (its draws, its contact solver, its statistics; the compliance alone
+// is shared).
 
-#include "strainwave/model/lcp/sampled_contact.hpp"
 #include "strainwave/common/sampling/distribution.hpp"
 #include "strainwave/common/sampling/saltelli_points.hpp"
 #include "strainwave/common/statistics/sobol_indices.hpp"
 #include "strainwave/common/statistics/summary.hpp"
+#include "strainwave/model/lcp/sampled_contact.hpp"
 
 #include "tests/model/lcp/problems.hpp"
 
@@ -83,7 +84,8 @@ TEST(ToleranceOracle, MomentsAndQuantilesUnderNoiseOfSingleTeeth) {
   for (int k = 0; k < 2; ++k) {
     const auto& known = oracle.recorded()["noise"]["outputs"][names[k]];
     const Summary summary = summarise(values[k], {.quantiles = {0.05, 0.5, 0.95, 0.99}, .limits = {}});
-    // Two samples of the same size: their difference has √2 times the spread of one; 4 of them, where 1.96 are the interval.
+    // Two samples of the same size: their difference has √2 times the spread of one; 4 of them, where 1.96
+    // are the interval.
     const auto same = [](const Estimate& own, double other) {
       const double spread = 0.5 * (own.ci95.upper - own.ci95.lower) / 1.96;
       EXPECT_NEAR(own.value, other, 4.0 * std::numbers::sqrt2 * spread);
