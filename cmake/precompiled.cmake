@@ -3,8 +3,8 @@
 option(STRAINWAVE_PRECOMPILED "precompiled headers" ON)
 
 set(strainwave_precompiled_headers
-  <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <limits> <map> <memory> <numbers> <optional> <span>
-  <sstream> <stdexcept> <string> <string_view> <utility> <variant> <vector> <Eigen/Dense> <fmt/format.h>)
+  <algorithm> <array> <cmath> <functional> <limits> <map> <memory> <numbers> <optional> <span> <stdexcept> <string>
+  <string_view> <utility> <variant> <vector> <Eigen/Dense> <fmt/format.h>)
 set(strainwave_precompiled_libraries Eigen3::Eigen fmt::fmt Boost::headers nlohmann_json::nlohmann_json)
 
 # A library that exists for its precompiled header: flags and definitions are those of every target that takes it.

@@ -1,18 +1,19 @@
 #include "strainwave/model/export/figures.hpp"
 
+#include "strainwave/common/core/units.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 
 namespace strainwave {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
+using units::degree;
 constexpr const char* angle_label = "material angle of the tooth from the major axis, φ [°]";
 
 std::string number(double value) {

@@ -1,5 +1,6 @@
 #include "strainwave/model/export/profile.hpp"
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/kinematics/neutral_curve.hpp"
 #include "strainwave/model/tooth/consistency.hpp"
 #include "strainwave/model/tooth/profile.hpp"
@@ -7,13 +8,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 namespace strainwave {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 constexpr int arc_pieces = 8;
 constexpr int curve_points = 720;
 

@@ -1,12 +1,12 @@
 #include "strainwave/model/flexspline/mesh.hpp"
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/flexspline/element.hpp"
 #include "strainwave/model/flexspline/tooth_outline.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <string>
 #include <tuple>
 
@@ -16,7 +16,7 @@ namespace strainwave {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 constexpr double most_strips = 200.0; ///< elements along the front clearance, as many as along a face at most
 
 Failure contradiction(std::string message) {

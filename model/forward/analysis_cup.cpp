@@ -1,6 +1,7 @@
 // The stages of an analysis that know the cup: finite elements, assembly on the wave generator, compliance of
 // the teeth.
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/forward/analysis.hpp"
 
 #include "strainwave/model/flexspline/response_request.hpp"
@@ -15,7 +16,7 @@ namespace strainwave {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
+using units::degree;
 
 /// D is symmetric by construction, so its own transpose proves nothing. Three of its columns (first, middle,
 /// last tooth) are found again from a unit force and the reaction of the held wall, and compared with the

@@ -1,5 +1,6 @@
 #include "strainwave/model/forward/forward.hpp"
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/flexspline/response_request.hpp"
 #include "strainwave/model/forward/analysis.hpp"
 #include "strainwave/model/forward/inputs.hpp"
@@ -17,7 +18,7 @@ namespace strainwave {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
+using units::degree;
 
 WaveGeneratorResult describe(const NeutralCurve& curve, const Flexspline& flexspline) {
   const CurveSummary& s = curve.summary();

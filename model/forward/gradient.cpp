@@ -1,5 +1,6 @@
 #include "strainwave/model/forward/gradient.hpp"
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/forward/analysis.hpp"
 #include "strainwave/model/gear/fields.hpp"
 #include "strainwave/model/kinematics/rim_strain.hpp"
@@ -151,7 +152,7 @@ ForwardGradient Analysis::gradient(std::span<const std::string> parameters) {
   };
   g.rim_strain = rim_strain_slopes(gear_, **curve_, g.parameters);
   g.assembly_force_n = at_phase(0.0).assembly_force();
-  constexpr double degree = std::numbers::pi / 180.0;
+  using units::degree;
   if (const auto& assembled = result_.backlash->assembled)
     g.min_backlash_um =
         1e3 * at_phase(0.0).assembled_backlash(assembled->min_phi_deg * degree, assembled->min_z_mm);

@@ -1,5 +1,6 @@
 #include "strainwave/model/forward/ring_pair.hpp"
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/flexspline/response_request.hpp"
 #include "strainwave/model/flexspline/response_store.hpp"
 #include "strainwave/model/meshing/flank_points.hpp"
@@ -9,13 +10,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace strainwave {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 /// The table of one lobe with its teeth on the second lobe added.
 void add_second_lobe(Backlash& table, int z1) {

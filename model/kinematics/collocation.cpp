@@ -1,14 +1,15 @@
 #include "strainwave/model/kinematics/collocation.hpp"
 
+#include "strainwave/common/core/units.hpp"
+
 #include <Eigen/LU>
 
 #include <cmath>
-#include <numbers>
 
 namespace strainwave {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 constexpr double quarter = 0.5 * pi;
 
 /// The integrated equations at n points. Unknowns: psi at the points, then a, h, e.

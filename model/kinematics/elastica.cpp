@@ -5,6 +5,7 @@
 // derivatives, so that a pose is one sum. Seed gear: lift-off at 50.342648 degrees about the disc's centre,
 // N/EI = -0.00210823 mm^-2.
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/kinematics/collocation.hpp"
 #include "strainwave/model/kinematics/curve_shape.hpp"
 #include "strainwave/model/kinematics/derivative.hpp"
@@ -13,13 +14,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace strainwave {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 constexpr double quarter = 0.5 * pi;
 
 class Elastica final : public CurveShape {

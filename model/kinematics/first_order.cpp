@@ -1,5 +1,6 @@
 // The first-order shapes and the rigid cams: two_disc, four_force, ellipse, cosine, table.
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/kinematics/polar_curve.hpp"
 #include "strainwave/model/kinematics/table.hpp"
 #include "strainwave/model/kinematics/wrap.hpp"
@@ -11,7 +12,7 @@
 namespace strainwave {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 constexpr double quarter = 0.5 * pi;
 using Number = CurveNumber;
 

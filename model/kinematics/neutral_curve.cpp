@@ -1,16 +1,16 @@
 #include "strainwave/model/kinematics/neutral_curve.hpp"
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/kinematics/curve_shape.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace strainwave {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 /// angle = turns * pi + side * quarter, quarter in [0, pi/2], side +-1.
 struct Folded {

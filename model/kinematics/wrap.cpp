@@ -1,5 +1,7 @@
 #include "strainwave/model/kinematics/wrap.hpp"
 
+#include "strainwave/common/core/units.hpp"
+
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
@@ -9,7 +11,7 @@
 namespace strainwave {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
+using units::degree;
 constexpr double ratio_at_right_angle = 1.0 / (1.0 - 2.0 / std::numbers::pi);
 constexpr double ratio_at_zero = 0.5 * std::numbers::pi / (0.5 * std::numbers::pi - 4.0 / std::numbers::pi);
 

@@ -1,5 +1,6 @@
 #include "strainwave/model/loading/load_cases.hpp"
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/meshing/pressure.hpp"
 
 #include <fmt/format.h>
@@ -14,8 +15,8 @@ namespace strainwave {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
-constexpr double arcsec = degree / 3600.0;
+using units::arcsec;
+using units::degree;
 
 /// One asked-for load: torque or rotation.
 struct Asked {

@@ -1,15 +1,16 @@
 #include "strainwave/model/meshing/assembled_backlash.hpp"
 
+#include "strainwave/common/core/units.hpp"
+
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace strainwave {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
+using units::degree;
 constexpr double none = std::numeric_limits<double>::infinity();
 
 /// Angle and value of the least f in [lo, hi], f unimodal there; to 1e-7 of the interval.

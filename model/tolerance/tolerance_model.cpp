@@ -1,5 +1,6 @@
 #include "strainwave/model/tolerance/tolerance_model.hpp"
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/gear/fields.hpp"
 #include "strainwave/model/tolerance/flank_shape.hpp"
 
@@ -7,14 +8,13 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace strainwave {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 int wrapped(int i, int n) {
   const int rest = i % n;

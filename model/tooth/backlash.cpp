@@ -1,5 +1,6 @@
 #include "strainwave/model/tooth/backlash.hpp"
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/tooth/consistency.hpp"
 #include "strainwave/model/tooth/gear_numbers.hpp"
 #include "strainwave/model/tooth/prepared_pair.hpp"
@@ -8,12 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace strainwave {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 } // namespace
 

@@ -1,5 +1,6 @@
 #include "strainwave/model/tooth/backlash_gradient.hpp"
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/tooth/gear_numbers.hpp"
 #include "strainwave/model/tooth/prepared_pair.hpp"
 
@@ -7,13 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace strainwave {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 /// f(path, number) for all numbers that this gear and curve have.
 template <class T, class Function>

@@ -1,16 +1,16 @@
 #include "strainwave/model/tooth/consistency.hpp"
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/tooth/flank_modification.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace strainwave {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 template <class... Values>
 Failure contradiction(fmt::format_string<Values...> text, Values&&... values) {

@@ -1,5 +1,6 @@
 #include "strainwave/model/tooth/flank_modification.hpp"
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/tooth/gear_numbers.hpp"
 
 #include <boost/math/tools/minima.hpp>
@@ -8,7 +9,7 @@
 namespace strainwave {
 namespace {
 
-constexpr double mm_per_um = 1e-3;
+using units::mm_per_um;
 
 const char* table_name(Member member) {
   return member == Member::flexspline ? "flank_modification.flexspline"

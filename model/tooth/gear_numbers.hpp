@@ -2,6 +2,7 @@
 // The gear's continuous numbers that the backlash depends on, for any scalar, addressed by gear-file path.
 // Internal.
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/tooth/flank_gap.hpp"
 
 namespace strainwave {
@@ -99,7 +100,7 @@ GearNumbers<T> gear_numbers(const Gear& gear) {
 
 template <class T>
 RemovalLaw<T> removal_law(const ModificationNumbers<T>& m, Member member, double zeta, const T& face_width) {
-  constexpr double mm_per_um = 1e-3;
+  using units::mm_per_um;
   RemovalLaw<T> law;
   law.on_tip_side_down = member == Member::circular_spline;
   law.tip_relief = m.tip_relief_um * mm_per_um;

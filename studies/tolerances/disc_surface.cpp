@@ -1,15 +1,16 @@
 #include "strainwave/studies/tolerances/disc_surface.hpp"
 
+#include "strainwave/common/core/units.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 
 namespace strainwave {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 double node(int k, int terms) {
   return std::cos(pi * (k + 0.5) / terms);
