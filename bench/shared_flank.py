@@ -4,7 +4,7 @@
     strainwave export gear.toml --contact contact.h5
     bench/shared_flank.py contact.h5 --torque-nm 7 --rotation-rad 2.686e-3
 
-A bound on single teeth (optimize/gear_bound.hpp) may give every tooth its own clearance. A gear cannot: one removal m(h) along
+A bound on single teeth (optimize/gear/gear_bound.hpp) may give every tooth its own clearance. A gear cannot: one removal m(h) along
 the flank serves all teeth. Here it is a variable, linear between knots, beside the forces F_p of all points of one phase:
 
     minimise t   subject to   Σ F_p of a tooth ≤ t,   lobes Σ r_p F_p = T,   θ ≤ rotation allowed,
