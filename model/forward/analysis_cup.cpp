@@ -2,10 +2,10 @@
 // the teeth.
 
 #include "strainwave/common/core/units.hpp"
-#include "strainwave/model/forward/analysis.hpp"
-
 #include "strainwave/model/flexspline/response_request.hpp"
 #include "strainwave/model/flexspline/response_store.hpp"
+#include "strainwave/model/forward/analysis.hpp"
+#include "strainwave/model/meshing/assembled_backlash.hpp"
 #include "strainwave/model/meshing/gear_surface.hpp"
 
 #include <fmt/format.h>

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <string_view>
 
 namespace strainwave {
 
 namespace {
 
 struct Change {
-  std::string name;
+  std::string_view name; ///< a literal
   std::function<void(Gear&)> make;
 };
 
@@ -59,7 +60,7 @@ std::vector<ModelVariant> optimum_variants(const Gear& baseline, const Gear& bes
   std::vector<ModelVariant> variants;
   for (const Change& change : changes(best))
     variants.push_back(
-        {change.name, analyse(baseline, loads, change, model), analyse(best, loads, change, model)});
+        {std::string(change.name), analyse(baseline, loads, change, model), analyse(best, loads, change, model)});
   return variants;
 }
 

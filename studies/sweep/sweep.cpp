@@ -9,6 +9,7 @@
 
 #include "strainwave/common/core/units.hpp"
 #include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/results/response.hpp"
 #include "strainwave/studies/file/study_gear.hpp"
 #include "strainwave/studies/results/row_status.hpp"
 
