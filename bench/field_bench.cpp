@@ -2,6 +2,7 @@
 // the whole ring.
 
 #include "strainwave/model/flexspline/cyclic_field.hpp"
+#include "strainwave/model/flexspline/cyclic_stress.hpp"
 #include "strainwave/model/flexspline/responses.hpp"
 #include "strainwave/model/flexspline/ring.hpp"
 

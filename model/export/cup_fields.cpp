@@ -1,6 +1,7 @@
 #include "strainwave/model/export/cup_fields.hpp"
 
 #include "strainwave/model/export/cup_grid.hpp"
+#include "strainwave/model/flexspline/cyclic_stress.hpp"
 #include "strainwave/model/flexspline/functionals.hpp"
 
 #include <algorithm>

@@ -44,10 +44,9 @@ struct RingField {
 RingField ring_field(const SectorMesh& mesh, const Material& material,
                      const std::vector<std::vector<FieldLoad>>& cases);
 
-/// Largest von Mises stress of every element of the ring, MPa: rows sector·(elements of a sector) + element.
-/// Stresses are taken at the 2 × 2 × 2 integration points, where they are most accurate, and carried on to
-/// the corners trilinearly, so that bending of a wall one element thick shows its surface value.
-Eigen::MatrixXd largest_von_mises(const SectorMesh& mesh, const Material& material,
-                                  const Eigen::MatrixXd& displacement);
+/// Displacements of one element of sector `sector` from those of the ring, in the element's order: 3·node +
+/// component.
+Eigen::Matrix<double, 60, 1> element_displacement(const SectorMesh& mesh, std::size_t element, int sector,
+                                                  const Eigen::Ref<const Eigen::VectorXd>& displacement);
 
 } // namespace strainwave

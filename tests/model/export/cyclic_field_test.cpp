@@ -1,6 +1,7 @@
 // Displacements of the whole ring from one sector, against the factorization of the whole ring.
 
 #include "strainwave/model/flexspline/cyclic_field.hpp"
+#include "strainwave/model/flexspline/cyclic_stress.hpp"
 
 #include "strainwave/model/export/cup_grid.hpp"
 #include "strainwave/model/flexspline/cyclic.hpp"
