@@ -6,6 +6,7 @@
 #     LIBRARIES        outside libraries seen in its public headers;  PRIVATE: only in its sources
 #     PRIVATE_HEADERS  of this room only: included from nowhere else, not installed
 #     EXCEPT           sources that are not compiled here
+#     ALONE            sources that are not read in one go with the others (below)
 #
 # The room's sources and headers are those in its folder. Its target is strainwave_ and its path with _ for /.
 # Headers are included as "strainwave/<folder>/<name>.hpp".
@@ -30,7 +31,22 @@ target_compile_options(strainwave_build INTERFACE -Wall -Wextra -Wshadow -Wpedan
 target_include_directories(strainwave_build INTERFACE ${PROJECT_SOURCE_DIR})
 set_property(GLOBAL PROPERTY STRAINWAVE_ROOMS strainwave_options)
 
+# Reading headers and making the same templates again and again is most of a build: a room's sources are compiled
+# together, a dozen at a time. Off in the preset dev, where one changed source should cost one source.
+option(STRAINWAVE_UNITY "compile the sources of a room together" ON)
+
 include(cmake/precompiled.cmake)
+
+# The sources of a target read in one go, but for those named.
+function(strainwave_unite target)
+  if(STRAINWAVE_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    target_compile_options(${target} PRIVATE -Wno-shadow) # a local name may be another source's
+    foreach(name ${ARGN})
+      set_source_files_properties(${name} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endforeach()
+  endif()
+endfunction()
 
 function(strainwave_target_of room result)
   string(REPLACE "/" "_" name ${room})
@@ -48,7 +64,7 @@ function(strainwave_targets_of result)
 endfunction()
 
 function(strainwave_room)
-  cmake_parse_arguments(ROOM "" "" "USES;LIBRARIES;PRIVATE;PRIVATE_HEADERS;EXCEPT" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "USES;LIBRARIES;PRIVATE;PRIVATE_HEADERS;EXCEPT;ALONE" ${ARGN})
   file(RELATIVE_PATH room ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   strainwave_target_of(${room} target)
   strainwave_targets_of(uses ${ROOM_USES})
@@ -70,13 +86,15 @@ function(strainwave_room)
     VERIFY_INTERFACE_HEADER_SETS ON)
   add_library(strainwave::${export_name} ALIAS ${target})
   strainwave_precompile(${target} ${ROOM_LIBRARIES} ${ROOM_PRIVATE})
+  list(TRANSFORM ROOM_ALONE PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  strainwave_unite(${target} ${ROOM_ALONE})
   set_property(GLOBAL APPEND PROPERTY STRAINWAVE_ROOMS ${target})
 endfunction()
 
-# strainwave_test(NAME USES … LIBRARIES … SOURCES …): one test program of the *_test.cpp in this folder, or of the named
+# strainwave_test(NAME USES … LIBRARIES … SOURCES … ALONE …): one test program of the *_test.cpp in this folder, or of the named
 # sources. Tests whose suite name ends in "Nightly" run only under the label nightly (./run test --nightly).
 function(strainwave_test name)
-  cmake_parse_arguments(T "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(T "" "" "SOURCES;USES;LIBRARIES;ALONE" ${ARGN})
   if(NOT T_SOURCES)
     file(GLOB T_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   endif()
@@ -86,6 +104,8 @@ function(strainwave_test name)
   target_compile_definitions(test_${name} PRIVATE
     STRAINWAVE_TEST_REFERENCE="${PROJECT_SOURCE_DIR}/tests/reference" STRAINWAVE_SOURCE="${PROJECT_SOURCE_DIR}")
   strainwave_precompile_test(test_${name} ${T_LIBRARIES})
+  list(TRANSFORM T_ALONE PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  strainwave_unite(test_${name} ${T_ALONE})
   add_test(NAME ${name} COMMAND test_${name} --gtest_filter=-*Nightly.*)
   add_test(NAME ${name}.nightly COMMAND test_${name} --gtest_filter=*Nightly.*)
   set_tests_properties(${name}.nightly PROPERTIES LABELS nightly)

@@ -10,6 +10,7 @@ namespace strainwave {
 
 namespace units {
 inline constexpr double pi = std::numbers::pi;
+inline constexpr double right_angle = 0.5 * pi;   ///< rad
 inline constexpr double degree = pi / 180.0;      ///< rad
 inline constexpr double arcsec = degree / 3600.0; ///< rad
 inline constexpr double mm_per_um = 1e-3;

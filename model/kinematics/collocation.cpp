@@ -10,7 +10,7 @@ namespace strainwave {
 namespace {
 
 using units::pi;
-constexpr double quarter = 0.5 * pi;
+using units::right_angle;
 
 /// The integrated equations at n points. Unknowns: psi at the points, then a, h, e.
 class Collocation {
@@ -23,12 +23,12 @@ public:
 
   Eigen::VectorXd start(const LiftOff& lift_off) const {
     const double radius = problem_.neutral_radius_mm + problem_.u0_mm - lift_off.eccentricity_mm;
-    const double half = 0.5 * (quarter * problem_.neutral_radius_mm - radius * lift_off.arc_rad);
+    const double half = 0.5 * (right_angle * problem_.neutral_radius_mm - radius * lift_off.arc_rad);
     Eigen::VectorXd x(grid_.size + 3);
     // From lift-off to pi with the given initial curvature: near enough for Newton, the true psi is almost
     // straight.
     for (int j = 0; j < grid_.size; ++j) {
-      const double way = 0.5 * (grid_.nodes[j] + 1.0), begin = quarter + lift_off.arc_rad;
+      const double way = 0.5 * (grid_.nodes[j] + 1.0), begin = right_angle + lift_off.arc_rad;
       const double slope = 2.0 * half / radius;
       x[j] = begin + slope * way + (pi - begin - slope) * way * way;
     }
@@ -42,9 +42,10 @@ public:
     const int n = grid_.size;
     const double a = x[n], h = x[n + 1], e = x[n + 2];
     const double radius = problem_.neutral_radius_mm + problem_.u0_mm - e;
-    const double half = 0.5 * (quarter * problem_.neutral_radius_mm - radius * a);
+    const double half = 0.5 * (right_angle * problem_.neutral_radius_mm - radius * a);
     // Derivatives of R and l with respect to a, e and to r_m, u0.
-    const double half_a = -0.5 * radius, half_e = 0.5 * a, half_rm = 0.5 * (quarter - a), half_u0 = -0.5 * a;
+    const double half_a = -0.5 * radius, half_e = 0.5 * a, half_rm = 0.5 * (right_angle - a),
+                 half_u0 = -0.5 * a;
     const double ratio = half / radius; // l/R
     const auto ratio_by = [&](double half_by, double radius_by) {
       return (half_by - ratio * radius_by) / radius;
@@ -56,7 +57,7 @@ public:
     const double half2_h = half * half * h, width = weights.dot(cosine);
 
     f.resize(n + 3);
-    f.head(n) = x.head(n) - Eigen::VectorXd::Constant(n, quarter + a) - ratio * forward - half2_h * bend;
+    f.head(n) = x.head(n) - Eigen::VectorXd::Constant(n, right_angle + a) - ratio * forward - half2_h * bend;
     f[n] = x[n - 1] - pi;
     f[n + 1] = e + radius * std::cos(a) + half * width;
     const double lx = e + radius * std::cos(a), ly = radius * std::sin(a);

@@ -20,7 +20,7 @@ namespace strainwave {
 namespace {
 
 using units::pi;
-constexpr double quarter = 0.5 * pi;
+using units::right_angle;
 
 class Elastica final : public CurveShape {
 public:
@@ -34,7 +34,7 @@ public:
     n_over_ei_ = solution.lift_off.n_over_ei_per_mm2;
     radius_ = rm + u0 - e_;
     lift_off_s_ = radius_ * arc_;
-    half_ = Number(0.5 * (quarter * rm - lift_off_s_));
+    half_ = Number(0.5 * (right_angle * rm - lift_off_s_));
     const Number lift_x = e_ + radius_ * cos(arc_), lift_y = radius_ * sin(arc_);
     lift_off_polar_ = std::atan2(lift_y.value(), lift_x.value());
     // x, y, psi at the nodes, then their derivatives with respect to each parameter at fixed t.
@@ -68,7 +68,7 @@ public:
   CurveSummary summary() const override {
     const double u0 = radius_.value() + e_.value() - radius_m_;
     return {.u0_mm = u0,
-            .u90_mm = pose(quarter).rho_mm - radius_m_,
+            .u90_mm = pose(right_angle).rho_mm - radius_m_,
             .perimeter_excess_mm = 0.0,
             .wrap_angle_rad = lift_off_polar_,
             .lift_off_arc_rad = arc_.value(),
@@ -80,7 +80,7 @@ public:
   Pose pose(double phi) const override {
     const Point p = point(radius_m_ * phi);
     const double polar = std::atan2(p.y, p.x);
-    return {std::hypot(p.x, p.y), polar, p.psi - quarter - polar};
+    return {std::hypot(p.x, p.y), polar, p.psi - right_angle - polar};
   }
 
   PoseDerivatives pose_derivatives(double phi) const override {
@@ -119,7 +119,7 @@ public:
     to_angles(dpsi);
     const double rho = std::hypot(p.x, p.y), polar = std::atan2(p.y, p.x);
     PoseDerivatives result;
-    result.value = {rho, polar, p.psi - quarter - polar};
+    result.value = {rho, polar, p.psi - right_angle - polar};
     for (std::size_t j = 0; j < 4; ++j) {
       result.rho[j] = (p.x * dx[j] + p.y * dy[j]) / rho;
       result.phi1[j] = (p.x * dy[j] - p.y * dx[j]) / (rho * rho);
@@ -133,14 +133,14 @@ public:
     double s = radius_m_ * polar;
     Point p{};
     for (int step = 0; step < 12; ++step) {
-      p = point(std::clamp(s, 0.0, quarter * radius_m_));
+      p = point(std::clamp(s, 0.0, right_angle * radius_m_));
       const double here = std::atan2(p.y, p.x), rho = std::hypot(p.x, p.y);
       const double correction = (polar - here) * rho / std::sin(p.psi - here);
       s += correction;
       if (std::abs(correction) < 1e-15 * radius_m_)
         break;
     }
-    p = point(std::clamp(s, 0.0, quarter * radius_m_));
+    p = point(std::clamp(s, 0.0, right_angle * radius_m_));
     const double rho = std::hypot(p.x, p.y), across = p.psi - std::atan2(p.y, p.x);
     const double cotangent = std::cos(across) / std::sin(across), sine = std::sin(across);
     const double first = rho * cotangent;
@@ -159,7 +159,8 @@ private:
   Point point(double s) const {
     if (s <= lift_off_s_.value()) {
       const double radius = radius_.value(), angle = s / radius;
-      return {e_.value() + radius * std::cos(angle), radius * std::sin(angle), quarter + angle, 1.0 / radius};
+      return {e_.value() + radius * std::cos(angle), radius * std::sin(angle), right_angle + angle,
+              1.0 / radius};
     }
     const auto v = chebyshev_sum<3>(values_.data(), size_, std::min(position(s), 1.0));
     const double lift_y = radius_.value() * std::sin(arc_.value());

@@ -13,7 +13,7 @@ namespace strainwave {
 namespace {
 
 using units::pi;
-constexpr double quarter = 0.5 * pi;
+using units::right_angle;
 using Number = CurveNumber;
 
 /// A shape that does not depend on the parameters, seen as one that does.
@@ -61,7 +61,7 @@ MadeShape make_four_force(const WaveGenerator& generator, double radius) {
     return Failure{Status::contradiction,
                    "four forces need wave_generator.force_angle_deg, from 0 to below 90 degrees"};
   const double beta_deg = *generator.force_angle_deg, beta = beta_deg * pi / 180.0;
-  if (!(beta >= 0.0) || !(beta <= quarter))
+  if (!(beta >= 0.0) || !(beta <= right_angle))
     return Failure{Status::contradiction,
                    fmt::format("force_angle_deg {} is outside 0 to 90 degrees", beta_deg)};
   const double u0 = generator.max_radial_deformation_mm;

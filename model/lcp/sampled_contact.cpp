@@ -1,11 +1,11 @@
 #include "strainwave/model/lcp/sampled_contact.hpp"
 
 #include "strainwave/model/lcp/lanes.hpp"
+#include "strainwave/model/lcp/limits.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -13,7 +13,6 @@ namespace strainwave {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr std::size_t wide = 8; ///< doubles that are added side by side
 
 std::size_t padded(int n) {

@@ -1,16 +1,15 @@
 #include "strainwave/model/lcp/solver.hpp"
 
+#include "strainwave/model/lcp/limits.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
 namespace strainwave {
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// A set's hash is the exclusive or of its indices' (splitmix64, Steele, Lea, Flood 2014). A collision only
 /// costs time: it hands over to single pivots early.

@@ -1,5 +1,7 @@
 #include "strainwave/model/lcp/solver.hpp"
 
+#include "strainwave/model/lcp/limits.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +10,6 @@
 namespace strainwave {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 const char* const nothing_carries =
     "no contact: no index of the contact problem has a radius, so no torque can act";
 } // namespace

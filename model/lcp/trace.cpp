@@ -1,15 +1,14 @@
 #include "strainwave/model/lcp/path.hpp"
 
+#include "strainwave/model/lcp/limits.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace strainwave {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double same_event = 1e-11; ///< events nearer than this part of the rotation are one: mirrored pairs
                                      ///< on the discs differ by 2e-12
 constexpr int updates_per_factor = 64;

@@ -1,5 +1,6 @@
 // The exact two-disc curve: what defines it, and agreement of the two solvers.
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/kinematics/shooting.hpp"
 #include "tests/model/kinematics/curves.hpp"
 
@@ -10,7 +11,7 @@
 namespace strainwave::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 TEST(Elastica, IsInextensible) {
   // Arc length between neighbouring material points, Simpson on the pose's own derivative d(position)/d(phi).

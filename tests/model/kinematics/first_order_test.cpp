@@ -1,5 +1,6 @@
 // Closed forms of the first-order shapes, their wrap condition and their arc length.
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/kinematics/wrap.hpp"
 #include "tests/model/kinematics/curves.hpp"
 
@@ -11,7 +12,7 @@
 namespace strainwave::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 Outcome<NeutralCurve> two_disc(double u0, std::optional<double> e, std::optional<double> wrap_deg,
                                WaveGeneratorShape shape = WaveGeneratorShape::two_disc) {

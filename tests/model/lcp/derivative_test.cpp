@@ -10,8 +10,6 @@ namespace {
 
 using namespace contact_problems;
 
-const std::string folder = STRAINWAVE_TEST_REFERENCE;
-
 /// A direction in which M, q, r and the control move together.
 struct Direction {
   Eigen::MatrixXd m;

@@ -12,8 +12,6 @@ namespace {
 
 using namespace contact_problems;
 
-const std::string folder = STRAINWAVE_TEST_REFERENCE;
-
 ContactProblem single() { // the worked example of lcp.hpp
   return {Eigen::MatrixXd::Constant(1, 1, 1e-4), Eigen::VectorXd::Constant(1, 4e-3),
           Eigen::VectorXd::Constant(1, 14.5)};

@@ -11,8 +11,6 @@ namespace {
 
 using namespace contact_problems;
 
-const std::string folder = STRAINWAVE_TEST_REFERENCE;
-
 TEST(LcpMarch, ConvergesToTheEventPathWithFirstOrder) {
   const ContactProblem problem = load_path(read_json(folder + "/load-path.json"));
   ContactSolver solver;

@@ -10,8 +10,6 @@ namespace {
 
 using namespace contact_problems;
 
-const std::string folder = STRAINWAVE_TEST_REFERENCE;
-
 /// Largest difference of forces between the path and direct solves at 1000 rotations, relative to the largest
 /// force there.
 double largest_difference(const ContactProblem& problem, const EventPath& path, double from, double to) {

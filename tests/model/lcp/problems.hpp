@@ -15,6 +15,9 @@
 
 namespace strainwave::contact_problems {
 
+/// Of the recorded problems.
+inline const std::string folder = STRAINWAVE_TEST_REFERENCE;
+
 inline nlohmann::json read_json(const std::string& path) {
   std::ifstream file(path);
   if (!file)

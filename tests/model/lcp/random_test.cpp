@@ -12,8 +12,6 @@ namespace {
 
 using namespace contact_problems;
 
-const std::string folder = STRAINWAVE_TEST_REFERENCE;
-
 /// Elimination without pivoting in long double: a is k × k by rows, b becomes the solution.
 void eliminate(std::vector<long double>& a, std::vector<long double>& b) {
   const std::size_t k = b.size();

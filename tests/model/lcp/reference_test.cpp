@@ -12,8 +12,6 @@ namespace {
 
 using namespace contact_problems;
 
-const std::string folder = STRAINWAVE_TEST_REFERENCE;
-
 TEST(LcpReference, ForcesAtGivenRotationsOfTheSeedGear) {
   const auto reference = read_json(folder + "/load-path.json");
   const ContactProblem problem = load_path(reference);

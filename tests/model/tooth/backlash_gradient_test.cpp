@@ -3,6 +3,7 @@
 
 #include "strainwave/model/tooth/backlash_gradient.hpp"
 #include "tests/model/kinematics/order_of_convergence.hpp"
+#include "tests/model/tooth/curve_of.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,10 +14,6 @@
 
 namespace strainwave::testing {
 namespace {
-
-NeutralCurve curve_of(const Gear& gear) {
-  return NeutralCurve::make(gear.wave_generator, gear.flexspline).value();
-}
 
 /// The key behind a path, and a step at which truncation is above rounding but the contact stays where it is.
 struct Key {

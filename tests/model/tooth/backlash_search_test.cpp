@@ -3,6 +3,7 @@
 
 #include "strainwave/model/tooth/backlash.hpp"
 #include "tests/model/tooth/brute_force.hpp"
+#include "tests/model/tooth/curve_of.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,10 +14,6 @@ namespace strainwave::testing {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-NeutralCurve curve_of(const Gear& gear) {
-  return NeutralCurve::make(gear.wave_generator, gear.flexspline).value();
-}
 
 /// Every key of the modification in use, with minima inside the flank and at kinks.
 Gear modified(int variant) {

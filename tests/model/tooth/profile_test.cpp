@@ -2,15 +2,12 @@
 
 #include "strainwave/model/tooth/profile.hpp"
 #include "tests/model/tooth/brute_force.hpp"
+#include "tests/model/tooth/curve_of.hpp"
 
 #include <gtest/gtest.h>
 
 namespace strainwave::testing {
 namespace {
-
-NeutralCurve curve_of(const Gear& gear) {
-  return NeutralCurve::make(gear.wave_generator, gear.flexspline).value();
-}
 
 TEST(Profile, PlainFlanksAreTheSourceTextsInvolutes) {
   const Gear gear = seed_gear();

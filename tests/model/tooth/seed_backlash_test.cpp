@@ -3,6 +3,7 @@
 
 #include "strainwave/model/tooth/backlash.hpp"
 #include "strainwave/model/tooth/backlash_gradient.hpp"
+#include "tests/model/tooth/curve_of.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -25,10 +26,6 @@ Gear seed(WaveGeneratorShape shape) {
   Gear gear = seed_gear();
   gear.wave_generator.shape = shape;
   return gear;
-}
-
-NeutralCurve curve_of(const Gear& gear) {
-  return NeutralCurve::make(gear.wave_generator, gear.flexspline).value();
 }
 
 void expect_every_tooth(const Gear& gear, const nlohmann::json& expected) {
