@@ -15,6 +15,10 @@ foreach(folder common model optimize studies)
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${PROJECT_BINARY_DIR}/include/strainwave/${folder} SYMBOLIC)
 endforeach()
 
+# Reading headers and making the same templates again and again is most of a build: a room's sources are compiled
+# together, a dozen at a time. Off in the preset dev, where one changed source should cost one source.
+option(STRAINWAVE_UNITY "compile the sources of a room together" ON)
+
 add_library(strainwave_options INTERFACE)
 target_compile_features(strainwave_options INTERFACE cxx_std_20)
 # The layout of Eigen's types follows their alignment, which would else follow the instruction set.
@@ -26,14 +30,13 @@ if(STRAINWAVE_ARCH)
   target_compile_options(strainwave_build INTERFACE -march=${STRAINWAVE_ARCH})
 endif()
 # g++ 12's own AVX-512 headers draw (maybe-)uninitialized (GCC bug 105593), seen through Eigen's products.
-target_compile_options(strainwave_build INTERFACE -Wall -Wextra -Wshadow -Wpedantic -Wno-maybe-uninitialized
+target_compile_options(strainwave_build INTERFACE -Wall -Wextra -Wpedantic -Wno-maybe-uninitialized
   -Wno-uninitialized $<$<BOOL:${STRAINWAVE_WERROR}>:-Werror>)
+if(NOT STRAINWAVE_UNITY) # together, a local name may be another source's
+  target_compile_options(strainwave_build INTERFACE -Wshadow)
+endif()
 target_include_directories(strainwave_build INTERFACE ${PROJECT_SOURCE_DIR})
 set_property(GLOBAL PROPERTY STRAINWAVE_ROOMS strainwave_options)
-
-# Reading headers and making the same templates again and again is most of a build: a room's sources are compiled
-# together, a dozen at a time. Off in the preset dev, where one changed source should cost one source.
-option(STRAINWAVE_UNITY "compile the sources of a room together" ON)
 
 include(cmake/precompiled.cmake)
 
@@ -41,7 +44,6 @@ include(cmake/precompiled.cmake)
 function(strainwave_unite target)
   if(STRAINWAVE_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
-    target_compile_options(${target} PRIVATE -Wno-shadow) # a local name may be another source's
     foreach(name ${ARGN})
       set_source_files_properties(${name} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endforeach()
