@@ -7,8 +7,9 @@
 //   mid-side  N = (1 − ξ²)(1 + ηη_a)(1 + ζζ_a)/4   where ξ_a = 0, likewise for the other directions
 // Nodes 1 … 8 are the corners (ζ = −1 first, counter-clockwise seen from +ζ), 9 … 12 the mid-sides of ζ = −1,
 // 13 … 16 those of ζ = +1, 17 … 20 those along ζ. Integration at the 2 × 2 × 2 Gauss points, which removes
-// locking of thin walls; the six zero-energy patterns of a lone element cannot spread through a supported
-// mesh.
+// locking of thin walls and leaves a lone element six zero-energy patterns. A row of boxes held at one end
+// keeps some, two rows side by side none: a tooth needs two elements along the face, and a ring of one
+// element in its section must be held all over it (tests/model/flexspline/zero_energy_test.cpp).
 
 #include "strainwave/model/gear/gear.hpp"
 

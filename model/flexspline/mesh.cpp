@@ -290,7 +290,7 @@ MeshSize mesh_size(const Flexspline& f, const Mesh& m, bool teeth) {
 Mesh coarser(const Mesh& counts, bool teeth) {
   const auto half = [](int n, int least) { return std::max(least, (n + 1) / 2); };
   return {.per_pitch = half(counts.per_pitch, teeth ? 3 : 1),
-          .along_face = half(counts.along_face, 1),
+          .along_face = half(counts.along_face, teeth ? 2 : 1), // one alone may not hold a tooth, element.hpp
           .along_wall = half(counts.along_wall, 1),
           .diaphragm = half(counts.diaphragm, 1),
           .tooth_height = half(counts.tooth_height, 1),
