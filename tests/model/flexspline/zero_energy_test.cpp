@@ -20,7 +20,7 @@
 namespace strainwave {
 namespace {
 
-constexpr int open = -1; ///< both sides of the sector free, as it is condensed
+constexpr int open_sector = -1; ///< both sides of the sector free, as it is condensed
 
 /// √volume × strain (six components whose squares add up to ε : ε) of one element, by its Cartesian
 /// displacements.
@@ -53,7 +53,7 @@ Eigen::MatrixXcd sector_strains(const SectorMesh& mesh, int harmonic) {
   for (const int dof : mesh.fixed)
     unknown[static_cast<std::size_t>(dof)] = held;
   const auto each_tie = [&](const auto& work) {
-    for (std::size_t b = 0; b < mesh.right.size() && harmonic != open; ++b)
+    for (std::size_t b = 0; b < mesh.right.size() && harmonic != open_sector; ++b)
       for (int c = 0; c < 3; ++c)
         work(static_cast<std::size_t>(3 * mesh.right[b] + c), static_cast<std::size_t>(3 * mesh.left[b] + c));
   };
@@ -124,8 +124,8 @@ SectorMesh quarter_ring(bool all_rows_held) {
 
 TEST(ZeroEnergy, a_ring_of_one_element_has_a_mode_unless_its_section_is_held) {
   // The hourglass of the section, the same all around: held in the middle plane it is free.
-  EXPECT_EQ(modes_of(quarter_ring(false), open).without_energy, 1);
-  const Modes held = modes_of(quarter_ring(true), open);
+  EXPECT_EQ(modes_of(quarter_ring(false), open_sector).without_energy, 1);
+  const Modes held = modes_of(quarter_ring(true), open_sector);
   EXPECT_EQ(held.without_energy, 0);
   EXPECT_GT(held.weakest, held.safe);
 }
@@ -146,7 +146,7 @@ Gear smallest_mesh() {
 void expect_held(const Gear& gear, const Mesh& counts, const char* what) {
   const Outcome<SectorMesh> mesh = sector_mesh(gear.flexspline, counts);
   ASSERT_TRUE(mesh) << what << ": " << mesh.failure().message;
-  for (const int harmonic : {open, 0, 1, 2, mesh->sectors / 2}) {
+  for (const int harmonic : {open_sector, 0, 1, 2, mesh->sectors / 2}) {
     const Modes modes = modes_of(*mesh, harmonic);
     EXPECT_EQ(modes.without_energy, 0) << what << ", harmonic " << harmonic;
     EXPECT_GT(modes.weakest, modes.safe) << what << ", harmonic " << harmonic;
