@@ -1,7 +1,7 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "app/result_table.hpp"
-#include "strainwave/common/files/replaced_file.hpp"
+#include "strainwave/common/files/whole_file.hpp"
 #include "strainwave/model/export/figures.hpp"
 #include "strainwave/model/export/flank_figures.hpp"
 #include "strainwave/model/export/result_file.hpp"
@@ -10,13 +10,9 @@
 #include "strainwave/model/gear/fields.hpp"
 #include "strainwave/model/gear_file/gear_file.hpp"
 
-#include <cerrno>
 #include <filesystem>
 #include <memory>
 #include <vector>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 namespace strainwave::app {
 
@@ -56,20 +52,6 @@ void draw_figures(const ForwardResult& result, Gear gear, Want want, ForwardMode
     return;
   if (const Drawn drawn = draw(figures, folder); !drawn.complete)
     report(drawn.note);
-}
-
-/// Throws std::system_error "cannot write PATH" when a file of this name could not be made; leaves nothing
-/// behind.
-void try_to_write(const std::filesystem::path& path) {
-  std::error_code unknown;
-  if (std::filesystem::is_directory(path, unknown))
-    cannot_write(path, EISDIR);
-  const std::filesystem::path beside = path.string() + ".part"; // as the result will be written
-  const int file = open(beside.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  if (file < 0)
-    cannot_write(path, errno);
-  close(file);
-  std::filesystem::remove(beside, unknown);
 }
 
 /// Places of results are tried before anything is computed: minutes later would be too late.

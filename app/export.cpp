@@ -1,6 +1,6 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
-#include "strainwave/common/files/replaced_file.hpp"
+#include "strainwave/common/files/whole_file.hpp"
 #include "strainwave/model/export/contact_file.hpp"
 #include "strainwave/model/export/cup_deck.hpp"
 #include "strainwave/model/export/cup_fields.hpp"
@@ -57,7 +57,7 @@ ExitCode write_deck(const Gear& gear, const ExportOptions& options) {
   }();
   if (!deck)
     return no_result(deck.failure());
-  replace_file(options.calculix, *deck);
+  write_whole_text(options.calculix, *deck);
   return ExitCode::done;
 }
 
@@ -79,8 +79,8 @@ ExitCode write_profile(const Gear& gear, const ExportOptions& options) {
   const auto outlines = profile_outlines(gear, options.outlines);
   if (!outlines)
     return no_result(outlines.failure());
-  replace_file(options.profile,
-               options.profile.ends_with(".dxf") ? profile_dxf(*outlines) : profile_csv(*outlines));
+  write_whole_text(options.profile,
+                   options.profile.ends_with(".dxf") ? profile_dxf(*outlines) : profile_csv(*outlines));
   return ExitCode::done;
 }
 

@@ -1,74 +1,141 @@
 #include "strainwave/common/files/whole_file.hpp"
 
+#include <atomic>
 #include <cerrno>
 #include <fcntl.h>
-#include <string>
+#include <fmt/format.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace strainwave {
 
 namespace {
 
+namespace fs = std::filesystem;
+
+[[noreturn]] void cannot_write(const fs::path& path, int error) {
+  throw std::system_error(error != 0 ? error : EIO, std::generic_category(),
+                          fmt::format("cannot write {}", path.string()));
+}
+
+/// A descriptor that closes itself; −1: none.
 class Descriptor {
 public:
-  Descriptor(const std::filesystem::path& path, int flags)
-      : id_(::open(path.c_str(), flags | O_CLOEXEC, 0666)), path_(path.string()) {
-    if (id_ < 0)
-      fail("cannot write ");
+  explicit Descriptor(int id) : id_(id) {}
+  Descriptor(Descriptor&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+  Descriptor& operator=(Descriptor&&) = delete;
+  ~Descriptor() {
+    if (id_ >= 0)
+      ::close(id_);
   }
-  ~Descriptor() { ::close(id_); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  void sync() const {
-    if (::fsync(id_) != 0)
-      fail("cannot sync ");
-  }
-  void write(std::string_view text) const {
-    while (!text.empty()) {
-      const ssize_t done = ::write(id_, text.data(), text.size());
-      if (done < 0 && errno == EINTR)
-        continue;
-      if (done <= 0)
-        fail("cannot write ");
-      text.remove_prefix(static_cast<std::size_t>(done));
-    }
-  }
+  int id() const { return id_; }
 
 private:
-  [[noreturn]] void fail(const char* what) const {
-    throw std::system_error(errno, std::generic_category(), what + path_);
-  }
   int id_;
-  std::string path_;
 };
+
+/// Where a link leads; `path` itself where nothing is yet.
+fs::path target_of(const fs::path& path) {
+  std::error_code unknown;
+  if (!fs::is_symlink(path, unknown))
+    return path;
+  fs::path target = fs::weakly_canonical(path, unknown);
+  return unknown ? path : target;
+}
+
+/// A name beside the target that is not there yet. Numbers tell the threads of a process apart; on a shared
+/// disk another machine may have a process of this number: then the next one.
+struct PartFile {
+  fs::path target, name;
+  Descriptor file{-1};
+};
+
+PartFile part_of(const fs::path& path) {
+  static std::atomic<unsigned> serial = 0;
+  std::error_code unknown;
+  const fs::path target = target_of(path);
+  if (fs::is_directory(target, unknown))
+    cannot_write(path, EISDIR);
+  if (fs::exists(target, unknown) && !fs::is_regular_file(target, unknown))
+    cannot_write(path, EINVAL);
+  for (;;) {
+    fs::path name = target.string() + fmt::format(".{}-{}.part", ::getpid(), serial++);
+    Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (file.id() >= 0)
+      return {target, std::move(name), std::move(file)};
+    if (errno != EEXIST)
+      cannot_write(path, errno);
+  }
+}
+
+bool is_device(const fs::path& path) {
+  std::error_code unknown;
+  return fs::is_other(path, unknown); // through links
+}
 
 } // namespace
 
-void sync_folder_of(const std::filesystem::path& path) {
-  const auto folder = path.parent_path();
-  Descriptor(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY).sync();
+bool write_all(int descriptor, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t done = ::write(descriptor, bytes.data(), bytes.size());
+    if (done < 0 && errno == EINTR)
+      continue;
+    if (done <= 0)
+      return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(done));
+  }
+  return true;
 }
 
-void write_whole_file(const std::filesystem::path& path,
-                      const std::function<void(const std::filesystem::path&)>& write) {
-  const std::filesystem::path beside = path.string() + ".part" + std::to_string(::getpid());
+void sync_folder_of(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const Descriptor file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  // Some file systems cannot sync a folder and say so by EINVAL.
+  if (file.id() < 0 || (::fsync(file.id()) != 0 && errno != EINVAL))
+    cannot_write(path, errno);
+}
+
+void write_whole_file(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  const PartFile part = part_of(path);
   try {
-    write(beside);
-    Descriptor(beside, O_RDWR).sync();
-    std::filesystem::rename(beside, path);
+    write(part.name);
+    if (::fsync(part.file.id()) != 0)
+      cannot_write(path, errno);
+    std::error_code failed;
+    fs::rename(part.name, part.target, failed);
+    if (failed)
+      cannot_write(path, failed.value());
   } catch (...) {
     std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
+    fs::remove(part.name, ignored);
     throw;
   }
-  sync_folder_of(path);
+  sync_folder_of(part.target);
 }
 
-void write_whole_text(const std::filesystem::path& path, std::string_view text) {
-  write_whole_file(path, [&](const std::filesystem::path& beside) {
-    Descriptor(beside, O_WRONLY | O_CREAT | O_TRUNC).write(text);
+void write_whole_text(const fs::path& path, std::string_view text) {
+  if (is_device(path)) {
+    const Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    if (file.id() < 0)
+      cannot_write(path, errno);
+    if (!write_all(file.id(), std::as_bytes(std::span(text))))
+      cannot_write(path, errno);
+    return;
+  }
+  write_whole_file(path, [&](const fs::path& beside) {
+    const Descriptor file(::open(beside.c_str(), O_WRONLY | O_CLOEXEC));
+    if (file.id() < 0)
+      cannot_write(path, errno);
+    if (!write_all(file.id(), std::as_bytes(std::span(text))))
+      cannot_write(path, errno);
   });
+}
+
+void try_to_write(const fs::path& path) {
+  const PartFile part = part_of(path);
+  std::error_code ignored;
+  fs::remove(part.name, ignored);
 }
 
 } // namespace strainwave

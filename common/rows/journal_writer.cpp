@@ -22,18 +22,6 @@ constexpr std::size_t write_at = 1 << 18; ///< bytes collected before a write in
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-bool write_all(int descriptor, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t done = ::write(descriptor, bytes.data(), bytes.size());
-    if (done < 0 && errno == EINTR)
-      continue;
-    if (done <= 0)
-      return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(done));
-  }
-  return true;
-}
-
 } // namespace
 
 JournalWriter::JournalWriter(std::string path, const JournalHeader& header, const RecordVisitor& replay,

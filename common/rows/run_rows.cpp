@@ -9,7 +9,6 @@
 #include <condition_variable>
 #include <fmt/format.h>
 #include <mutex>
-#include <sched.h>
 #include <stdexcept>
 #include <thread>
 
@@ -214,13 +213,6 @@ int run_exit_code(RunEnd end) {
     break;
   }
   return 75;
-}
-
-int usable_threads() {
-  cpu_set_t set;
-  if (sched_getaffinity(0, sizeof set, &set) == 0)
-    return std::max(CPU_COUNT(&set), 1);
-  return static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
 }
 
 } // namespace strainwave

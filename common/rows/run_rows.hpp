@@ -67,7 +67,4 @@ RunResult run_rows(const EnginePlan&, const RowInputs&, const RowModel&, const s
 /// 0 complete or enough · 3 failures · 75 stopped early.
 int run_exit_code(RunEnd);
 
-/// CPUs that this process may use.
-int usable_threads();
-
 } // namespace strainwave

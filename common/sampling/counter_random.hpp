@@ -20,7 +20,9 @@ enum class RandomPurpose : std::uint64_t {
   sobol_shift = 5,
   bootstrap = 6,
   morris = 7,
-  model = 8 ///< for models that draw numbers of their own
+  model = 8, ///< for models that draw numbers of their own
+  search_starts = 9,
+  descent = 10 ///< where slopes are taken around a kink
 };
 
 struct RandomKey {

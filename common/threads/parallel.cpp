@@ -3,15 +3,23 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <sched.h>
 #include <thread>
 #include <vector>
 
 namespace strainwave {
 
+int usable_threads(int wanted) {
+  if (wanted > 0)
+    return wanted;
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0)
+    return std::max(CPU_COUNT(&set), 1);
+  return static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
+}
+
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
-  const unsigned wanted =
-      threads > 0 ? static_cast<unsigned>(threads) : std::max(1u, std::thread::hardware_concurrency());
-  const std::size_t workers = std::min<std::size_t>(wanted, count);
+  const std::size_t workers = std::min(static_cast<std::size_t>(usable_threads(threads)), count);
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> broken = false;
   std::vector<std::exception_ptr> thrown(count);

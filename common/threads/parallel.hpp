@@ -3,11 +3,16 @@
 // belong into places by index. The first exception, by index, is thrown on when all threads have come to
 // rest; no index is begun after one has thrown.
 
+#include <cstddef>
 #include <functional>
 
 namespace strainwave {
 
-/// threads = 0: as many as the machine offers.
+/// As many threads as are asked for; 0: as many as CPUs that this process may use (taskset, cgroups' cpusets,
+/// a batch system's share), which may be fewer than the machine has.
+int usable_threads(int wanted = 0);
+
+/// On usable_threads(threads).
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
 
 } // namespace strainwave

@@ -1,6 +1,6 @@
 #include "strainwave/model/export/figure.hpp"
 
-#include "strainwave/common/files/replaced_file.hpp"
+#include "strainwave/common/files/whole_file.hpp"
 
 #include <fmt/format.h>
 
@@ -69,8 +69,8 @@ std::string figure_colour(std::size_t index) {
 Drawn draw(const std::vector<Figure>& figures, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   for (const Figure& figure : figures) {
-    replace_file(folder / (figure.name + ".dat"), figure.data);
-    replace_file(folder / (figure.name + ".gp"), script(figure));
+    write_whole_text(folder / (figure.name + ".dat"), figure.data);
+    write_whole_text(folder / (figure.name + ".gp"), script(figure));
   }
   for (const Figure& figure : figures) {
     const int status = run_gnuplot(figure.name, folder);

@@ -1,15 +1,11 @@
 #include "strainwave/model/flexspline/cyclic.hpp"
 
+#include "strainwave/common/threads/parallel.hpp"
 #include "strainwave/model/flexspline/blas.hpp"
 #include "strainwave/model/flexspline/harmonics.hpp"
 
-#include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
 #include <numbers>
-#include <thread>
 
 #include <Eigen/Core>
 
@@ -19,36 +15,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-/// Runs work(0 … count − 1) on several threads (0: as many as cores); the first exception is thrown again
-/// here.
-template <class Work>
-void parallel_for(int count, int threads, const Work& work) {
-  if (threads <= 0)
-    threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  std::atomic<int> next = 0;
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto loop = [&] {
-    try {
-      for (int index = next++; index < count; index = next++)
-        work(index);
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      if (!failure)
-        failure = std::current_exception();
-      next = count;
-    }
-  };
-  {
-    std::vector<std::jthread> crew;
-    for (int t = 1; t < std::min(threads, count); ++t)
-      crew.emplace_back(loop);
-    loop();
-  }
-  if (failure)
-    std::rethrow_exception(failure);
-}
 
 /// 2π h k / N, the product reduced to one turn.
 double harmonic_angle(int h, int k, int sectors) {
@@ -85,7 +51,8 @@ std::vector<double> cyclic_responses(const SectorMesh& mesh, const Material& mat
   // Row-major G_h in the columns, real parts then imaginary parts, with the weights of the inverse transform.
   const int terms = 2 * harmonics;
   MatrixXd spectrum(square, terms);
-  parallel_for(harmonics, threads, [&](int h) {
+  parallel_for(static_cast<std::size_t>(harmonics), threads, [&](std::size_t index) {
+    const int h = static_cast<int>(index);
     const HarmonicResponse g = solver.response(h);
     const double share = harmonic_share(h, sectors);
     const MatrixXd real = share * g.real.transpose(), imaginary = share * g.imaginary.transpose();

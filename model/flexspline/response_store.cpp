@@ -1,110 +1,20 @@
 #include "strainwave/model/flexspline/response_store.hpp"
 
-#include <atomic>
+#include "strainwave/common/files/content_hash.hpp"
+#include "strainwave/common/files/hdf5.hpp"
+
 #include <bit>
 #include <cstdlib>
-#include <cstring>
-#include <mutex>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
-#include <hdf5.h>
-#include <unistd.h>
+#include <zlib.h>
 
 namespace strainwave {
 
 namespace {
-
-/// An HDF5 identifier that closes itself; negative: failed.
-class Handle {
-public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : identifier(id), closer(close) {}
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  ~Handle() { (void)release(); }
-  bool ok() const { return identifier >= 0; }
-  hid_t id() const { return identifier; }
-  /// Closes now; false when that fails (a full disk shows here).
-  bool release() {
-    if (identifier < 0)
-      return true;
-    return closer(std::exchange(identifier, -1)) >= 0;
-  }
-
-private:
-  hid_t identifier;
-  herr_t (*closer)(hid_t);
-};
-
-/// Debian's HDF5 is not built for several threads: one store works at a time.
-std::mutex hdf5_in_use;
-
-/// HDF5 prints its error stack by default; here a failed call is an ordinary answer.
-class QuietErrors {
-public:
-  QuietErrors() {
-    H5Eget_auto2(H5E_DEFAULT, &handler, &data);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~QuietErrors() { H5Eset_auto2(H5E_DEFAULT, handler, data); }
-  QuietErrors(const QuietErrors&) = delete;
-  QuietErrors& operator=(const QuietErrors&) = delete;
-
-private:
-  H5E_auto2_t handler = nullptr;
-  void* data = nullptr;
-};
-
-hid_t memory_type(double) {
-  return H5T_NATIVE_DOUBLE;
-}
-hid_t memory_type(std::uint64_t) {
-  return H5T_NATIVE_UINT64;
-}
-hid_t file_type(double) {
-  return H5T_IEEE_F64LE;
-}
-hid_t file_type(std::uint64_t) {
-  return H5T_STD_U64LE;
-}
-
-template <class T>
-bool write_list(hid_t file, const char* name, const std::vector<T>& values, const char* unit = nullptr) {
-  const hsize_t size = values.size();
-  Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-  Handle set(H5Dcreate2(file, name, file_type(T{}), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-             H5Dclose);
-  if (!set.ok())
-    return false;
-  if (size > 0 && H5Dwrite(set.id(), memory_type(T{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    return false;
-  if (unit != nullptr) {
-    Handle text(H5Tcopy(H5T_C_S1), H5Tclose);
-    Handle scalar(H5Screate(H5S_SCALAR), H5Sclose);
-    H5Tset_size(text.id(), std::strlen(unit));
-    Handle attribute(H5Acreate2(set.id(), "unit", text.id(), scalar.id(), H5P_DEFAULT, H5P_DEFAULT),
-                     H5Aclose);
-    if (!attribute.ok() || H5Awrite(attribute.id(), text.id(), unit) < 0)
-      return false;
-  }
-  return set.release();
-}
-
-template <class T>
-bool read_list(hid_t file, const char* name, std::vector<T>& values) {
-  Handle set(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
-  if (!set.ok())
-    return false;
-  Handle space(H5Dget_space(set.id()), H5Sclose);
-  if (H5Sget_simple_extent_ndims(space.id()) != 1)
-    return false;
-  const hssize_t size = H5Sget_simple_extent_npoints(space.id());
-  if (size < 0 || static_cast<hsize_t>(size) * sizeof(T) > H5Dget_storage_size(set.id()))
-    return false;
-  values.resize(static_cast<std::size_t>(size));
-  return size == 0 || H5Dread(set.id(), memory_type(T{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
-}
 
 constexpr struct {
   const char* name;
@@ -125,33 +35,41 @@ std::vector<double> single_numbers(const UnitResponses& responses) {
           responses.discretisation_estimate, responses.both_flanks ? 1.0 : 0.0};
 }
 
-std::uint64_t hash_of(const std::vector<double>& list) {
-  std::vector<std::uint64_t> words(list.size());
-  if (!list.empty())
-    std::memcpy(words.data(), list.data(), list.size() * sizeof(double));
-  return content_hash(words.data(), words.size());
+template <class T>
+std::uint32_t crc_of(const std::vector<T>& list, std::uint32_t before = 0) {
+  return static_cast<std::uint32_t>(
+      crc32_z(before, reinterpret_cast<const unsigned char*>(list.data()), list.size() * sizeof(T)));
 }
 
+/// CRC-32 of all numbers, as in journals.
 std::uint64_t checksum(const UnitResponses& responses) {
-  std::uint64_t sum = hash_of(single_numbers(responses));
-  for (const auto& entry : lists) {
-    const std::uint64_t both[2] = {sum, hash_of(responses.*entry.list)};
-    sum = content_hash(both, 2);
-  }
+  std::uint32_t sum = crc_of(single_numbers(responses));
+  for (const auto& entry : lists)
+    sum = crc_of(responses.*entry.list, sum);
   return sum;
 }
 
-} // namespace
-
-std::uint64_t content_hash(const std::uint64_t* words, std::size_t count) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (std::size_t n = 0; n < count; ++n)
-    hash = (hash ^ words[n]) * 1099511628211u, hash ^= hash >> 29;
-  hash ^= hash >> 33; // final mix of MurmurHash3 (Appleby, public domain)
-  hash *= 0xff51afd7ed558ccdu;
-  hash ^= hash >> 33;
-  return hash;
+/// What a file holds, checked against itself; nothing where it is damaged.
+std::optional<UnitResponses> read_responses(const hdf5::File& file) {
+  const auto check = file.dataset("checksum").read<std::uint64_t>();
+  const auto numbers = file.dataset("numbers").read<double>();
+  if (check.size() != 1 || numbers.size() != 4)
+    return {};
+  UnitResponses responses;
+  for (const auto& entry : lists)
+    responses.*entry.list = file.dataset(entry.name).read<double>();
+  responses.sectors = static_cast<int>(numbers[0]);
+  responses.reciprocity_error = numbers[1];
+  responses.discretisation_estimate = numbers[2];
+  responses.both_flanks = numbers[3] != 0.0;
+  const auto count = static_cast<std::size_t>(responses.count());
+  if (responses.data.size() != static_cast<std::size_t>(responses.sectors) * count * count ||
+      checksum(responses) != check.front())
+    return {};
+  return responses;
 }
+
+} // namespace
 
 std::vector<std::uint64_t> response_key(const ResponseRequest& r) {
   std::vector<std::uint64_t> key = {response_stage_version};
@@ -206,7 +124,8 @@ void ResponseStore::warn(const std::string& sentence) const {
 
 std::filesystem::path ResponseStore::file(const ResponseRequest& request) const {
   const std::vector<std::uint64_t> key = response_key(request);
-  return folder / fmt::format("unit-responses-{:016x}.h5", content_hash(key.data(), key.size()));
+  const std::string_view bytes(reinterpret_cast<const char*>(key.data()), key.size() * sizeof key[0]);
+  return folder / fmt::format("unit-responses-{}.h5", hash_text(content_hash(bytes)));
 }
 
 std::optional<UnitResponses> ResponseStore::find(const ResponseRequest& request) const {
@@ -214,68 +133,39 @@ std::optional<UnitResponses> ResponseStore::find(const ResponseRequest& request)
   const std::filesystem::path path = file(request);
   if (folder.empty() || !std::filesystem::exists(path, error))
     return {};
-  const std::lock_guard lock(hdf5_in_use);
-  const QuietErrors quiet;
-  const auto ignored = [&](const char* reason) -> std::optional<UnitResponses> {
-    warn(fmt::format("{} is ignored: {}; the unit responses are computed again", path.string(), reason));
-    return {};
-  };
-  Handle handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!handle.ok())
-    return ignored("it cannot be read as HDF5");
-  std::vector<std::uint64_t> key, check;
-  std::vector<double> numbers;
-  if (!read_list(handle.id(), "key", key))
-    return ignored("it holds no key of a flexspline");
-  if (key != response_key(request))
-    return ignored("it belongs to another flexspline or an older version");
-  UnitResponses responses;
-  bool whole = read_list(handle.id(), "checksum", check) && check.size() == 1 &&
-               read_list(handle.id(), "numbers", numbers) && numbers.size() == 4;
-  for (const auto& entry : lists)
-    whole = whole && read_list(handle.id(), entry.name, responses.*entry.list);
-  if (!whole)
-    return ignored("it is damaged");
-  responses.sectors = static_cast<int>(numbers[0]);
-  responses.reciprocity_error = numbers[1];
-  responses.discretisation_estimate = numbers[2];
-  responses.both_flanks = numbers[3] != 0.0;
-  const auto count = static_cast<std::size_t>(responses.count());
-  if (responses.data.size() != static_cast<std::size_t>(responses.sectors) * count * count ||
-      checksum(responses) != check.front())
-    return ignored("it is damaged");
-  return responses;
+  const char* flaw = "it cannot be read as HDF5";
+  try {
+    const hdf5::File stored(path);
+    flaw = "it holds no key of a flexspline";
+    const auto key = stored.dataset("key").read<std::uint64_t>();
+    flaw = "it is damaged";
+    if (key != response_key(request))
+      flaw = "it belongs to another flexspline or an older version";
+    else if (auto responses = read_responses(stored))
+      return responses;
+  } catch (const std::system_error&) { // the flaw says what was being read
+  }
+  warn(fmt::format("{} is ignored: {}; the unit responses are computed again", path.string(), flaw));
+  return {};
 }
 
 void ResponseStore::keep(const ResponseRequest& request, const UnitResponses& responses) const {
   if (folder.empty())
     return;
-  static std::atomic<unsigned> serial = 0;
-  const std::filesystem::path path = file(request);
-  std::filesystem::path beside = path;
-  beside += fmt::format(".{}-{}.part", getpid(), serial++);
-  const std::lock_guard lock(hdf5_in_use);
-  const QuietErrors quiet;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  bool done = false;
-  {
-    Handle handle(H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
-    done = handle.ok() && write_list(handle.id(), "key", response_key(request)) &&
-           write_list(handle.id(), "checksum", std::vector<std::uint64_t>{checksum(responses)}) &&
-           write_list(handle.id(), "numbers", single_numbers(responses));
-    for (const auto& entry : lists)
-      done = done && write_list(handle.id(), entry.name, responses.*entry.list, entry.unit);
-    done = handle.release() && done;
+  try {
+    hdf5::write_file(file(request), {"strainwave unit responses", 1}, [&](const hdf5::Group& stored) {
+      stored.put("key", response_key(request));
+      stored.put("checksum", std::vector{checksum(responses)});
+      stored.put("numbers", single_numbers(responses));
+      for (const auto& entry : lists)
+        stored.put(entry.name, responses.*entry.list).set_text("units", entry.unit);
+    });
+  } catch (const std::system_error& refused) {
+    warn(fmt::format("the unit responses cannot be kept in {}: {}; they will be computed again next time",
+                     folder.string(), refused.code().message()));
   }
-  if (done)
-    std::filesystem::rename(beside, path, error);
-  if (done && !error)
-    return;
-  std::error_code ignored;
-  std::filesystem::remove(beside, ignored);
-  warn(fmt::format("the unit responses cannot be kept in {}{}; they will be computed again next time",
-                   folder.string(), error ? ": " + error.message() : ""));
 }
 
 Outcome<StoredResponses> stored_unit_responses(const ResponseRequest& request, const ResponseStore& store,

@@ -19,13 +19,10 @@
 namespace strainwave {
 
 /// Raised whenever the same request would give other numbers.
-inline constexpr std::uint64_t response_stage_version = 3;
+inline constexpr std::uint64_t response_stage_version = 4;
 
 /// Canonical bits of a request (every number as 64 bits, lists with their length) behind the stage's version.
 std::vector<std::uint64_t> response_key(const ResponseRequest& request);
-
-/// 64-bit hash of words (FNV-1a over 64-bit words with a final mix).
-std::uint64_t content_hash(const std::uint64_t* words, std::size_t count);
 
 /// $STRAINWAVE_CACHE, else $XDG_CACHE_HOME/strainwave, else ~/.cache/strainwave; empty when there is no home
 /// either.

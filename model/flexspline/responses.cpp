@@ -1,13 +1,13 @@
 #include "strainwave/model/flexspline/responses.hpp"
 
 #include "strainwave/common/core/memory.hpp"
+#include "strainwave/common/threads/parallel.hpp"
 #include "strainwave/model/flexspline/cyclic.hpp"
 #include "strainwave/model/flexspline/request_checks.hpp"
 #include "strainwave/model/flexspline/sparse.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -147,9 +147,7 @@ ResponseFunctionals response_functionals(const ResponseRequest& r, const SectorM
 Outcome<UnitResponses> unit_responses(const ResponseRequest& request, int threads) {
   if (const auto failure = find_flaw(request))
     return *failure;
-  const int crew =
-      threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  require_memory(response_memory_bytes(request, crew),
+  require_memory(response_memory_bytes(request, usable_threads(threads)),
                  fmt::format("the finite elements of the flexspline ({:.0f} a tooth pitch, {} pitches)",
                              mesh_size(request.flexspline, request.mesh, request.teeth).elements,
                              request.sectors > 0 ? request.sectors : request.flexspline.teeth),

@@ -1,8 +1,11 @@
 #pragma once
 // Small linear programmes:   minimise costᵀx   subject to   each row · x ≤ (or =) its bound,   x ≥ 0.
 //
-// Dense two-phase simplex with Bland's rule (R. Bland, Math. Oper. Res. 2, 1977), which cannot cycle. For
-// some tens of unknowns and rows of comparable size; scale the rows before.
+// Dense two-phase simplex with Bland's rule (R. Bland, Math. Oper. Res. 2, 1977), which cannot cycle. For the
+// force bound: a row or two for each tooth of a lobe that may carry, so some tens of unknowns and rows. Its
+// table has rows × (unknowns + 2 rows) numbers and every step touches all of them; nothing is factorised
+// again, so rounding grows with the steps. Coefficients and bounds should be about 1 (costs are compared with
+// 1e-10, feasibility with 1e-8). For hundreds of rows take a library (Debian: coinor-libclp-dev).
 
 #include <optional>
 #include <vector>

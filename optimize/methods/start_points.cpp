@@ -1,6 +1,6 @@
 #include "strainwave/optimize/methods/start_points.hpp"
 
-#include "strainwave/optimize/methods/counter_random.hpp"
+#include "strainwave/common/sampling/counter_random.hpp"
 
 #include <cmath>
 
@@ -25,12 +25,14 @@ std::vector<std::vector<double>> start_points(const DesignSpace& design, std::si
     return points;
   points.push_back(design.scaled(design.start()));
   const std::vector<double> upper = design.scaled_upper();
+  std::vector<double> shift(upper.size());
+  random_uniforms({seed, RandomPurpose::search_starts}, 0, shift);
   const double g = generalised_golden_ratio(upper.size());
   for (std::size_t k = 1; k < count; ++k) {
     std::vector<double> y;
     for (std::size_t i = 0; i < upper.size(); ++i) {
       const double step = std::pow(g, -static_cast<double>(i + 1));
-      const double turns = counter_random(seed, 0, i) + static_cast<double>(k) * step;
+      const double turns = shift[i] + static_cast<double>(k) * step;
       y.push_back((turns - std::floor(turns)) * upper[i]);
     }
     points.push_back(std::move(y));

@@ -1,6 +1,6 @@
 #include "strainwave/optimize/plans/descent.hpp"
 
-#include "strainwave/optimize/methods/counter_random.hpp"
+#include "strainwave/common/sampling/counter_random.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -106,8 +106,9 @@ std::optional<SearchPoint> find_descent(const Problem& problem, const SearchPoin
   std::vector<Vector> slopes;
   for (std::size_t k = 0; k < n + 2; ++k) { // not at `from` itself: differences across a kink are no slopes
     Vector share(n);
-    for (std::size_t i = 0; i < n; ++i)
-      share[i] = radius * (2.0 * counter_random(seed, k, i) - 1.0);
+    random_uniforms({seed, RandomPurpose::descent}, k, share);
+    for (double& s : share)
+      s = radius * (2.0 * s - 1.0);
     const SearchPoint sample = sampler.at(from.y, share);
     if (!sample.ok)
       continue;

@@ -1,5 +1,6 @@
 #include "strainwave/studies/commands/plan.hpp"
 
+#include "strainwave/common/threads/parallel.hpp"
 #include "strainwave/optimize/gear/gear_evaluator.hpp"
 #include "strainwave/studies/commands/kinds.hpp"
 #include "strainwave/studies/file/study_gear.hpp"
@@ -119,7 +120,7 @@ Outcome<PilotEstimate> pilot_search(const StudyFile& study, PilotEstimate e) {
 
 Outcome<PilotEstimate> pilot(const StudyFile& study, int threads) {
   PilotEstimate e;
-  e.threads = threads > 0 ? threads : usable_threads();
+  e.threads = usable_threads(threads);
   if (!is_sampled(study.kind))
     return pilot_search(study, e);
   const auto begin = Clock::now();

@@ -8,14 +8,18 @@
 //     /messages    text of failed rows, /messages_row their rows
 //     /timing      seconds of each block of rows (attribute block_rows); all that differs between runs
 //     /config, /version
-//     attributes plan_hash, model_hash, missing_rows at the root
+//     attributes format, format_version, plan_hash, model_hash, missing_rows at the root
 
 #include "strainwave/common/rows/row_table.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 
 namespace strainwave {
+
+/// The format_version that this program writes, and the newest that it reads.
+inline constexpr std::int32_t results_format = 1;
 
 struct TableColumn {
   std::string name;

@@ -2,6 +2,7 @@
 
 #include "strainwave/common/files/content_hash.hpp"
 #include "strainwave/common/rows/merge.hpp"
+#include "strainwave/common/threads/parallel.hpp"
 #include "strainwave/studies/tables/text.hpp"
 
 #include <fmt/format.h>
@@ -95,7 +96,7 @@ void write_sampled_results(const ResultFolder& folder, const SampledStudy& rows,
 Outcome<SampledReport> run_sampled(const StudyFile& study, const RowMaker& make_rows,
                                    const ResultFolder& folder, const SampledOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
-  const int threads = options.threads > 0 ? options.threads : usable_threads();
+  const int threads = usable_threads(options.threads);
   auto made = make_rows(study, {.threads = threads, .disk_cache = options.disk_cache, .warn = options.warn});
   if (!made)
     return made.failure();

@@ -1,27 +1,20 @@
 // The program itself: exit codes, and stdout that carries results only.
 
+#include "tests/support/temporary_folder.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string file_text(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using strainwave::testing_support::text_of;
 
 class CommandLine : public testing::Test {
 protected:
@@ -30,19 +23,13 @@ protected:
     std::string out, err;
   };
 
-  CommandLine() {
-    std::string pattern = (fs::temp_directory_path() / "strainwave-XXXXXX").string();
-    folder = mkdtemp(pattern.data());
-  }
-  ~CommandLine() override { fs::remove_all(folder); }
-
   /// `arguments` as in a shell, in a folder of its own.
   End run(const std::string& arguments) {
     const std::string command = fmt::format("cd '{0}' && '{1}' {2} > out.txt 2> err.txt < /dev/null",
                                             folder.string(), STRAINWAVE_PROGRAM, arguments);
     const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(folder / "out.txt"),
-            file_text(folder / "err.txt")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / "out.txt"),
+            text_of(folder / "err.txt")};
   }
 
   /// The exit code of a whole shell line in which PROGRAM stands for the program.
@@ -54,7 +41,7 @@ protected:
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
-  void write(const std::string& name, const std::string& text) { std::ofstream(folder / name) << text; }
+  void write(const std::string& name, const std::string& text) { temporary.write(name, text); }
 
   void expect_wrong_use(const std::string& arguments, const std::string& sentence,
                         const std::string& help = "strainwave") {
@@ -66,10 +53,11 @@ protected:
         << arguments;
   }
 
-  fs::path folder;
+  strainwave::testing_support::TemporaryFolder temporary;
+  fs::path folder = temporary.path;
 };
 
-const std::string seed = file_text(STRAINWAVE_SOURCE "/studies/gallery/seed.toml");
+const std::string seed = text_of(STRAINWAVE_SOURCE "/studies/gallery/seed.toml");
 
 TEST_F(CommandLine, ExampleIsTheGallerysSeedGear) {
   const End end = run("example");
@@ -212,21 +200,21 @@ TEST_F(CommandLine, AFullDiskUnderStdoutIsTheEnvironment) {
   if (!fs::exists("/dev/full"))
     GTEST_SKIP();
   EXPECT_EQ(shell("PROGRAM example > /dev/full"), 74);
-  EXPECT_EQ(file_text(folder / "err.txt"),
+  EXPECT_EQ(text_of(folder / "err.txt"),
             "strainwave: cannot write to standard output: No space left on device\n");
 }
 
 TEST_F(CommandLine, AClosedStdoutIsTheEnvironment) {
   EXPECT_EQ(shell("PROGRAM example >&-"), 74);
-  EXPECT_EQ(file_text(folder / "err.txt"),
+  EXPECT_EQ(text_of(folder / "err.txt"),
             "strainwave: cannot write to standard output: Bad file descriptor\n");
 }
 
 TEST_F(CommandLine, AReaderThatStopsIsNoFault) {
   // The reader is gone before the program starts to write.
   EXPECT_EQ(shell("{ sleep 0.2; PROGRAM schema; echo $? > code.txt; } | true"), 0);
-  EXPECT_EQ(file_text(folder / "code.txt"), "0\n");
-  EXPECT_EQ(file_text(folder / "err.txt"), "");
+  EXPECT_EQ(text_of(folder / "code.txt"), "0\n");
+  EXPECT_EQ(text_of(folder / "err.txt"), "");
 }
 
 } // namespace

@@ -1,28 +1,22 @@
 // What the program meets outside of itself: files that are none, caches that are broken, places that cannot
 // be written.
 
+#include "tests/support/temporary_folder.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string file_text(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using strainwave::testing_support::text_of;
 
 /// A folder with the seed gear on a coarse mesh, gear.toml, and a cache of its own.
 class Environment : public testing::Test {
@@ -33,27 +27,21 @@ protected:
   };
 
   Environment() {
-    std::string pattern = (fs::temp_directory_path() / "strainwave-XXXXXX").string();
-    folder = mkdtemp(pattern.data());
-    cache = folder / "cache";
-    std::string text = file_text(STRAINWAVE_SOURCE "/studies/gallery/seed.toml");
+    std::string text = text_of(STRAINWAVE_SOURCE "/studies/gallery/seed.toml");
     text.resize(text.find("\n[mesh]"));
     write("gear.toml", text + "\n[mesh]\nper_pitch = 3\nalong_face = 2\nalong_wall = 2\ndiaphragm = 1\n"
                               "tooth_height = 1\n[load]\ntorque_nm = [7.0]\n");
   }
-  ~Environment() override { fs::remove_all(folder); }
 
-  void write(const std::string& name, const std::string& text) {
-    std::ofstream(folder / name, std::ios::binary) << text;
-  }
+  void write(const std::string& name, const std::string& text) { temporary.write(name, text); }
 
   End run(const std::string& arguments, const std::string& environment = "") {
     const std::string command = fmt::format(
         "export STRAINWAVE_CACHE='{1}' && cd '{0}' && env {2} '{3}' {4} > out.txt 2> err.txt < /dev/null",
         folder.string(), cache.string(), environment, STRAINWAVE_PROGRAM, arguments);
     const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(folder / "out.txt"),
-            file_text(folder / "err.txt")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / "out.txt"),
+            text_of(folder / "err.txt")};
   }
 
   void expect(const End& end, int code, const std::string& err) {
@@ -63,7 +51,8 @@ protected:
 
   fs::path stored() { return fs::directory_iterator(cache)->path(); }
 
-  fs::path folder, cache;
+  strainwave::testing_support::TemporaryFolder temporary;
+  fs::path folder = temporary.path, cache = folder / "cache";
 };
 
 TEST_F(Environment, FilesThatAreNoGearFilesAreNamed) {
@@ -81,7 +70,7 @@ TEST_F(Environment, FilesThatAreNoGearFilesAreNamed) {
 }
 
 TEST_F(Environment, FaultyShapeTableIsTheFilesFault) {
-  std::string text = file_text(folder / "gear.toml");
+  std::string text = text_of(folder / "gear.toml");
   text.replace(text.find("shape = \"two_disc_exact\""), 24, "shape = \"table\"");
   const std::size_t old = text.find("table_file");
   text.replace(old, text.find('\n', old) - old, "table_file = \"shape.txt\"");
@@ -101,7 +90,7 @@ TEST_F(Environment, FaultyShapeTableIsTheFilesFault) {
 }
 
 TEST_F(Environment, CheckSaysWhatThisVersionCannotDo) {
-  std::string text = file_text(folder / "gear.toml");
+  std::string text = text_of(folder / "gear.toml");
   const std::size_t line = text.find("fidelity = ");
   text.replace(line, text.find('\n', line) - line, "fidelity = \"nonlinear\"");
   write("gear.toml", text);
@@ -139,7 +128,7 @@ TEST_F(Environment, WithoutAHomeNothingIsKept) {
 TEST_F(Environment, BrokenAndForeignCacheFilesAreRebuilt) {
   const End first = run("analyze gear.toml");
   ASSERT_EQ(first.code, 0) << first.err;
-  const std::string whole = file_text(stored()), name = "cache/" + stored().filename().string();
+  const std::string whole = text_of(stored()), name = "cache/" + stored().filename().string();
   const auto expect_rebuilt = [&](const std::string& reason) {
     const End end = run("analyze gear.toml");
     expect(end, 0,
@@ -171,7 +160,7 @@ TEST_F(Environment, ResultThatCannotBeWrittenEndsWith74AndTheCause) {
 }
 
 TEST_F(Environment, MeshThatDoesNotFitIsRefusedBeforeItIsMade) {
-  std::string text = file_text(folder / "gear.toml");
+  std::string text = text_of(folder / "gear.toml");
   text.resize(text.find("\n[mesh]"));
   write("gear.toml", text + "\n[mesh]\nper_pitch = 64\nalong_face = 200\nalong_wall = 200\ndiaphragm = 200\n"
                             "tooth_height = 64\nthrough_thickness = 16\n");
@@ -188,7 +177,7 @@ TEST_F(Environment, TheDocumentShowsOnlyWhatIsSaid) {
   for (const char* arguments : {"analyze gaer.toml", "analyze gears", "analyze gear.toml -o nowhere/out.h5",
                                 "analyze gear.toml -o results"})
     said += run(arguments).err;
-  std::istringstream page(file_text(STRAINWAVE_SOURCE "/docs/errors.md"));
+  std::istringstream page(text_of(STRAINWAVE_SOURCE "/docs/errors.md"));
   int shown = 0;
   bool here = false;
   for (std::string line; std::getline(page, line);) {

@@ -1,27 +1,22 @@
 // `export` and `analyze --plots` from the command line: what ends how, and with which sentence.
 
+#include "tests/support/temporary_folder.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using strainwave::testing_support::TemporaryFolder;
+using strainwave::testing_support::text_of;
 
 /// The seed gear on a mesh that solves in a moment.
 std::string coarse_seed() {
@@ -37,12 +32,7 @@ protected:
     int code;
     std::string out, err;
   };
-  Export() {
-    std::string pattern = (fs::temp_directory_path() / "strainwave-XXXXXX").string();
-    folder = mkdtemp(pattern.data());
-    std::ofstream(folder / "gear.toml") << coarse_seed();
-  }
-  ~Export() override { fs::remove_all(folder); }
+  Export() { temporary.write("gear.toml", coarse_seed()); }
   End run(const std::string& arguments, const std::string& environment = {}) {
     const int status = std::system(
         fmt::format("cd '{0}' && STRAINWAVE_CACHE='{0}/cache' {1} '{2}' {3} > out.txt 2> err.txt < /dev/null",
@@ -51,7 +41,8 @@ protected:
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / "out.txt"),
             text_of(folder / "err.txt")};
   }
-  fs::path folder;
+  TemporaryFolder temporary;
+  fs::path folder = temporary.path;
 };
 
 TEST_F(Export, contact_problem_is_solved_by_another_program_to_the_same_forces) {
@@ -126,14 +117,16 @@ TEST_F(Export, places_that_cannot_be_written_end_with_74_and_the_cause) {
   EXPECT_NE(end.err.find("Is a directory"), std::string::npos) << end.err;
 }
 
-TEST_F(Export, full_disk_ends_with_74_and_leaves_no_half_file) {
+TEST_F(Export, full_disk_ends_with_74_and_leaves_nothing_beside) {
   if (!fs::exists("/dev/full"))
     GTEST_SKIP();
-  fs::create_symlink("/dev/full", folder / "cup.inp.part");
+  fs::create_symlink("/dev/full", folder / "cup.inp");
   const End end = run("export gear.toml --calculix cup.inp");
   EXPECT_EQ(end.code, 74);
   EXPECT_NE(end.err.find("No space left"), std::string::npos) << end.err;
-  EXPECT_FALSE(fs::exists(folder / "cup.inp"));
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+  for (const auto& entry : fs::directory_iterator(folder))
+    EXPECT_NE(entry.path().extension(), ".part");
 }
 
 /// The coarse seed gear with another value of one key, at its first place.

@@ -31,7 +31,7 @@ struct Synced {
 }
 
 void kill_writers(int times, std::uint64_t seed) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.file("j");
   auto* progress = static_cast<Synced*>(
       ::mmap(nullptr, sizeof(Synced), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));

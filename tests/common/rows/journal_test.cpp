@@ -33,7 +33,7 @@ TEST(RowBlock, RefusesBytesThatContradictThemselves) {
 }
 
 TEST(Journal, ContinuesWhereItEnded) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_journal(folder.file("j"), test_header(), 0, 5);
   write_journal(folder.file("j"), test_header(), 5, 9);
   RowTable table(1000, 2, 10);
@@ -52,7 +52,7 @@ TEST(Journal, ContinuesWhereItEnded) {
 }
 
 TEST(Journal, ARecordThatIsCutAnywhereIsNamedAndCut) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_journal(folder.file("j"), test_header(), 0, 2);
   const std::string two = bytes_of(folder.file("j"));
   write_journal(folder.file("j"), test_header(), 2, 3);
@@ -71,7 +71,7 @@ TEST(Journal, ARecordThatIsCutAnywhereIsNamedAndCut) {
 }
 
 TEST(Journal, EveryFlippedByteOfTheLastRecordIsFound) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_journal(folder.file("j"), test_header(), 0, 2);
   const std::size_t good = bytes_of(folder.file("j")).size();
   write_journal(folder.file("j"), test_header(), 2, 3);
@@ -87,7 +87,7 @@ TEST(Journal, EveryFlippedByteOfTheLastRecordIsFound) {
 }
 
 TEST(Journal, ZerosAfterAPowerCutAreNoRecords) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_journal(folder.file("j"), test_header(), 0, 2);
   put_bytes(folder.file("j"), bytes_of(folder.file("j")) + std::string(4096, '\0'));
   const JournalScan scan = scan_journal(folder.file("j"), ignore_records());
@@ -96,7 +96,7 @@ TEST(Journal, ZerosAfterAPowerCutAreNoRecords) {
 }
 
 TEST(Journal, AHeaderThatWasNeverFinishedIsWrittenAgain) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_journal(folder.file("j"), test_header(), 0, 1);
   const std::string whole = bytes_of(folder.file("j"));
   for (std::size_t size : {0, 1, 8, 127}) {
@@ -107,7 +107,7 @@ TEST(Journal, AHeaderThatWasNeverFinishedIsWrittenAgain) {
 }
 
 TEST(Journal, RefusesOtherStudiesAndLeavesThemAsTheyAre) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.file("j");
   write_journal(path, test_header(), 0, 3);
   const std::string before = bytes_of(path);
@@ -127,7 +127,7 @@ TEST(Journal, RefusesOtherStudiesAndLeavesThemAsTheyAre) {
 }
 
 TEST(Journal, LeavesFilesAloneThatAreNoJournals) {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const std::string& text : {std::string("short"), std::string(500, 'x')}) {
     put_bytes(folder.file("j"), text);
     const auto [fault, sentence] =
@@ -138,7 +138,7 @@ TEST(Journal, LeavesFilesAloneThatAreNoJournals) {
 }
 
 TEST(Journal, ADamagedHeaderIsSaidSo) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_journal(folder.file("j"), test_header(), 0, 3);
   std::string bytes = bytes_of(folder.file("j"));
   bytes[20] = static_cast<char>(bytes[20] ^ 1);
@@ -150,7 +150,7 @@ TEST(Journal, ADamagedHeaderIsSaidSo) {
 }
 
 TEST(Journal, ASecondWriterIsRefused) {
-  const Folder folder;
+  const TemporaryFolder folder;
   JournalWriter first(folder.file("j"), test_header(), ignore_records());
   append_block(first, test_block(0));
   const auto [fault, sentence] =
@@ -169,7 +169,7 @@ TEST(Journal, AFolderThatCannotBeWrittenIsASystemError) {
 // A file-size limit stands for a full disk: the write stops in the middle of a record. In a child, since the
 // limit stays.
 TEST(Journal, AFullDiskStopsCleanlyAndWholeRecordsStay) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.file("j");
   write_journal(path, test_header(), 0, 3);
   const std::size_t before = bytes_of(path).size();

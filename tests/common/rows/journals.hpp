@@ -1,9 +1,10 @@
 #pragma once
-// Journals to test with: rows whose content is a function of their index, in a folder of their own.
+// Journals to test with: rows whose content is a function of their index, and the folder they are in.
 
 #include "strainwave/common/rows/journal_writer.hpp"
 #include "strainwave/common/rows/row_block.hpp"
 #include "strainwave/common/rows/row_table.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -11,27 +12,10 @@
 #include <iterator>
 #include <random>
 #include <string>
-#include <unistd.h>
 
 namespace strainwave {
 
-class Folder {
-public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "strainwave-journal-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw std::runtime_error("no temporary folder");
-    path = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string file(const std::string& name) const { return (path / name).string(); }
-  std::filesystem::path path;
-};
+using testing_support::TemporaryFolder;
 
 inline JournalHeader test_header() {
   return {.plan_hash = 0x1234,

@@ -6,7 +6,7 @@ namespace strainwave {
 namespace {
 
 /// One journal for each shard of a study of 1000 rows.
-std::vector<std::filesystem::path> write_shards(const Folder& folder, std::uint32_t shards) {
+std::vector<std::filesystem::path> write_shards(const TemporaryFolder& folder, std::uint32_t shards) {
   std::filesystem::create_directories(folder.path / "shards");
   std::vector<std::filesystem::path> journals;
   for (std::uint32_t s = 0; s < shards; ++s) {
@@ -25,7 +25,7 @@ bool same(const RowTable& a, const RowTable& b) {
 }
 
 TEST(Merge, AnyNumberOfShardsGivesTheSameTable) {
-  const Folder one, three, many;
+  const TemporaryFolder one, three, many;
   const Merged whole = merge_journals(write_shards(one, 1));
   EXPECT_EQ(whole.table.done(), 1000U);
   EXPECT_TRUE(same(whole.table, merge_journals(write_shards(three, 3)).table));
@@ -33,7 +33,7 @@ TEST(Merge, AnyNumberOfShardsGivesTheSameTable) {
 }
 
 TEST(Merge, TheNumberOfShardsMayChangeMidway) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_shards(folder, 2);
   std::filesystem::remove(shard_journal(folder.path, 1, 2));
   write_shards(folder, 5);
@@ -44,7 +44,7 @@ TEST(Merge, TheNumberOfShardsMayChangeMidway) {
 }
 
 TEST(Merge, GapsAreRefusedUnlessAllowed) {
-  const Folder folder;
+  const TemporaryFolder folder;
   auto journals = write_shards(folder, 4);
   journals.erase(journals.begin() + 2);
   const auto [fault, sentence] = refusal([&] { merge_journals(journals); });
@@ -56,7 +56,7 @@ TEST(Merge, GapsAreRefusedUnlessAllowed) {
 }
 
 TEST(Merge, OtherPlansAndModelsAreRefused) {
-  const Folder folder;
+  const TemporaryFolder folder;
   auto journals = write_shards(folder, 2);
   JournalHeader header = test_header();
   header.plan_hash = 9;
@@ -72,7 +72,7 @@ TEST(Merge, OtherPlansAndModelsAreRefused) {
 }
 
 TEST(Merge, ContradictingRowsAreNamedWithBothFiles) {
-  const Folder folder;
+  const TemporaryFolder folder;
   auto journals = write_shards(folder, 1);
   journals.emplace_back(folder.file("again"));
   {
@@ -93,7 +93,7 @@ TEST(Merge, ContradictingRowsAreNamedWithBothFiles) {
 }
 
 TEST(Merge, AnotherBinaryIsNoted) {
-  const Folder folder;
+  const TemporaryFolder folder;
   auto journals = write_shards(folder, 2);
   JournalHeader header = test_header();
   header.origin = "another build";

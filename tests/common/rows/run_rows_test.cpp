@@ -26,6 +26,7 @@ TEST(RunRows, ShardsJoinedAreTheWholeStudy) {
   const RunResult whole = run_fresh({});
   for (std::uint32_t shards : {3U, 64U}) {
     const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "shards");
     for (std::uint32_t s = 0; s < shards; ++s) {
       EnginePlan plan = number_plan();
       plan.shard = s;

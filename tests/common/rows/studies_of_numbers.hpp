@@ -4,6 +4,7 @@
 #include "strainwave/common/rows/merge.hpp"
 #include "strainwave/common/rows/run_rows.hpp"
 #include "strainwave/common/sampling/counter_random.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <atomic>
 #include <cmath>
@@ -15,23 +16,7 @@
 
 namespace strainwave {
 
-class TemporaryFolder {
-public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "strainwave-engine-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw std::runtime_error("no temporary folder");
-    path = name;
-    std::filesystem::create_directory(path / "shards");
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::filesystem::path path;
-};
+using testing_support::TemporaryFolder;
 
 inline void random_inputs(std::uint64_t first, std::size_t count, std::span<double> rows) {
   for (std::size_t i = 0; i < count; ++i)

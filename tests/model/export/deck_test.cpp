@@ -112,11 +112,11 @@ TEST(Deck, calculix_gives_the_fields_of_this_program) {
   states.states.push_back(state);
   const auto deck = calculix_deck(gear, states);
   ASSERT_TRUE(deck.ok());
-  const testing_export::Folder folder;
+  const testing_export::TemporaryFolder folder;
   std::ofstream(folder / "cup.inp") << *deck;
-  ASSERT_EQ(std::system(
-                ("cd '" + folder.path().string() + "' && OMP_NUM_THREADS=1 ccx cup > log.txt 2>&1").c_str()),
-            0);
+  ASSERT_EQ(
+      std::system(("cd '" + folder.path.string() + "' && OMP_NUM_THREADS=1 ccx cup > log.txt 2>&1").c_str()),
+      0);
   std::ifstream printed(folder / "cup.dat");
   const RingPart ring(mesh);
   const auto steps = read_calculix_displacements(printed, ring.nodes());

@@ -68,7 +68,7 @@ TEST(Dxf, says_that_it_is_in_millimetres) {
 TEST(Dxf, ezdxf_finds_no_fault_when_it_is_there) {
   if (std::system("/usr/bin/python3 -c 'import ezdxf' > /dev/null 2>&1") != 0)
     GTEST_SKIP() << "python3-ezdxf is not installed";
-  const testing_export::Folder folder;
+  const testing_export::TemporaryFolder folder;
   std::ofstream(folder / "teeth.dxf") << profile_dxf(profile_outlines(seed_gear()).value());
   std::ofstream(folder / "read.py")
       << "import ezdxf, sys\nd = ezdxf.readfile(sys.argv[1]); a = d.audit()\n"

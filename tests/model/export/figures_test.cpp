@@ -72,7 +72,7 @@ TEST(Figures, gnuplot_draws_every_one_of_them) {
   const ForwardResult result = model.analyze(gear);
   const std::vector<Figure> figures = all_figures(gear, result, model);
   EXPECT_EQ(figures.size(), 6u);
-  const testing_export::Folder folder;
+  const testing_export::TemporaryFolder folder;
   const Drawn drawn = draw(figures, folder / "plots");
   EXPECT_TRUE(drawn.complete) << drawn.note;
   for (const Figure& figure : figures) {
@@ -102,7 +102,7 @@ private:
 };
 
 TEST(Figures, without_gnuplot_the_data_are_written_and_a_sentence_says_why_there_are_no_pictures) {
-  const testing_export::Folder folder;
+  const testing_export::TemporaryFolder folder;
   const Path nowhere("/nonexistent");
   const Drawn drawn = draw({{.name = "a", .data = "1 2\n", .drawing = "plot 'a.dat'\n"}}, folder / "plots");
   EXPECT_FALSE(drawn.complete);
@@ -111,7 +111,7 @@ TEST(Figures, without_gnuplot_the_data_are_written_and_a_sentence_says_why_there
 }
 
 TEST(Figures, folder_under_a_file_is_an_error_with_the_cause) {
-  const testing_export::Folder folder;
+  const testing_export::TemporaryFolder folder;
   std::ofstream(folder / "file") << "x";
   EXPECT_THROW(draw({}, folder / "file" / "plots"), std::system_error);
 }

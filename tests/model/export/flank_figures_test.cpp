@@ -91,7 +91,7 @@ TEST(FlankFigures, GnuplotDrawsThemForOneSliceAndForOneHeight) {
     const Gear gear = whole_flank(heights, slices, GapModel::assembled);
     const auto figures = flank_figures(model.analyze(gear), gear);
     EXPECT_EQ(figures.size(), 5u);
-    const testing_export::Folder folder;
+    const testing_export::TemporaryFolder folder;
     const Drawn drawn = draw(figures, folder / "plots");
     EXPECT_TRUE(drawn.complete) << drawn.note;
     for (const Figure& figure : figures) {

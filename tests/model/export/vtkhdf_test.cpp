@@ -1,5 +1,6 @@
 // Structure of the VTKHDF file, read back with HDF5, and VTK's numbering of a quadratic hexahedron.
 
+#include "strainwave/common/files/hdf5.hpp"
 #include "strainwave/model/export/cup_grid.hpp"
 
 #include "tests/model/export/folder.hpp"
@@ -99,7 +100,7 @@ protected:
     return value;
   }
 
-  testing_export::Folder folder;
+  testing_export::TemporaryFolder folder;
   UnstructuredGrid grid;
   hid_t file = -1;
 };
@@ -137,9 +138,7 @@ TEST_F(VtkhdfFile, sizes_and_types_fit_together) {
 TEST_F(VtkhdfFile, point_and_cell_data_have_their_units) {
   EXPECT_EQ(shape("/VTKHDF/PointData/push"), (std::vector<hsize_t>{grid.points.size() / 3, 3}));
   EXPECT_EQ(shape("/VTKHDF/CellData/region"), (std::vector<hsize_t>{grid.types.size()}));
-  char unit[8] = {};
-  ASSERT_GE(H5LTget_attribute_string(file, "/VTKHDF/PointData/push", "units", unit), 0);
-  EXPECT_STREQ(unit, "mm");
+  EXPECT_EQ(hdf5::File(folder / "cup.vtkhdf").dataset("VTKHDF/PointData/push").text("units"), "mm");
 }
 
 TEST(Vtkhdf, folder_that_is_not_there_is_named_with_the_cause) {
@@ -156,7 +155,7 @@ TEST(Vtkhdf, vtk_itself_reads_it_when_it_is_there) {
   // Package python3-vtk9 belongs to Debian's own Python.
   if (std::system("/usr/bin/python3 -c 'import vtk' > /dev/null 2>&1") != 0)
     GTEST_SKIP() << "python3-vtk9 is not installed";
-  const testing_export::Folder folder;
+  const testing_export::TemporaryFolder folder;
   const UnstructuredGrid grid = ring_grid(coarse_mesh());
   write_vtkhdf(grid, "", folder / "cup.vtkhdf");
   std::ofstream(folder / "read.py")

@@ -6,6 +6,7 @@
 #include "strainwave/model/flexspline/cyclic.hpp"
 #include "strainwave/model/flexspline/responses.hpp"
 #include "tests/model/flexspline/bodies.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -15,7 +16,6 @@
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace strainwave {
 namespace {
@@ -38,8 +38,8 @@ TEST(Calculix, coarse_cup_with_teeth_agrees_to_the_printed_digits) {
   for (const int load : loads)
     cases.push_back({{plan.functionals[static_cast<std::size_t>(load)], 0, 1.0}});
 
-  const fs::path folder = fs::temp_directory_path() / ("strainwave-ccx-" + std::to_string(getpid()));
-  fs::create_directories(folder);
+  const testing_support::TemporaryFolder temporary;
+  const fs::path folder = temporary.path;
   {
     std::ofstream deck(folder / "cup.inp");
     write_calculix_deck(deck, ring, request.material, cases, "coarse cup");
@@ -70,7 +70,6 @@ TEST(Calculix, coarse_cup_with_teeth_agrees_to_the_printed_digits) {
     EXPECT_LT(worst, 5e-6 * scale) << "load case " << step;
     RecordProperty("relative_difference_" + std::to_string(step), std::to_string(worst / scale));
   }
-  fs::remove_all(folder);
 }
 
 TEST(Calculix, every_number_fits_its_field) {

@@ -1,6 +1,7 @@
 #include "strainwave/model/flexspline/response_store.hpp"
 
 #include "tests/model/flexspline/bodies.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -8,7 +9,6 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace strainwave {
 namespace {
@@ -18,13 +18,10 @@ namespace fs = std::filesystem;
 class Store : public ::testing::Test {
 protected:
   void SetUp() override {
-    folder = fs::temp_directory_path() / ("strainwave-store-" + std::to_string(getpid()));
-    fs::remove_all(folder);
     request = testing_bodies::broad_toothed_cup();
     request.flank_heights = 2;
     request.wall_z_mm = {22.5, 26.5};
   }
-  void TearDown() override { fs::remove_all(folder); }
   ResponseStore store() {
     return ResponseStore(folder, [this](const std::string& sentence) { warnings.push_back(sentence); });
   }
@@ -36,7 +33,8 @@ protected:
     EXPECT_NE(warnings.front().find(reason), std::string::npos) << warnings.front();
     EXPECT_TRUE(stored_unit_responses(request, store())->reused) << "after " << reason;
   }
-  fs::path folder;
+  testing_support::TemporaryFolder temporary;
+  fs::path folder = temporary / "store"; // which the store makes
   ResponseRequest request;
   std::vector<std::string> warnings;
 };

@@ -3,6 +3,7 @@
 // and random ones counted by an index, so that any of them can be made again alone.
 
 #include "strainwave/model/gear/fields.hpp"
+#include "tests/support/coarse_seed.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -32,13 +33,7 @@ private:
 
 /// The seed gear on the coarsest mesh: one analysis takes some 10 ms.
 inline Gear quick_gear() {
-  Gear gear = seed_gear();
-  gear.mesh = {.per_pitch = 3,
-               .along_face = 2,
-               .along_wall = 2,
-               .diaphragm = 1,
-               .tooth_height = 1,
-               .through_thickness = 1};
+  Gear gear = testing_support::coarse_seed_gear(testing_support::coarsest_mesh);
   gear.load.torque_nm = {7.0};
   return gear;
 }

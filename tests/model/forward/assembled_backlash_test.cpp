@@ -7,6 +7,7 @@
 #include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/meshing/assembled_backlash.hpp"
 #include "strainwave/model/meshing/gear_surface.hpp"
+#include "tests/support/coarse_seed.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -52,13 +53,7 @@ TEST(AssembledBacklash, FallsFromTheRearToTheFrontOfTheDiscsAsAnIndependentModel
 }
 
 TEST(AssembledBacklash, InterferenceOfAResultIsThatOfItsOwnGaps) {
-  Gear gear = seed_gear(); // free in the kinematic section, not so as assembled
-  gear.mesh = {.per_pitch = 3,
-               .along_face = 3,
-               .along_wall = 4,
-               .diaphragm = 3,
-               .tooth_height = 1,
-               .through_thickness = 1};
+  Gear gear = testing_support::coarse_seed_gear(); // free in the kinematic section, not so as assembled
   gear.contact.window_deg = {-21.0, 51.0};
   gear.load.torque_nm = {1.0};
   ForwardModel model({.disk_cache = false});

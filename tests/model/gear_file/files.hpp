@@ -2,6 +2,7 @@
 // Files and edits for these tests.
 
 #include "strainwave/model/gear_file/gear_file.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -41,25 +42,6 @@ inline std::string complaint_about(const std::string& text) {
   return "no error";
 }
 
-/// A folder of its own that is gone after the test.
-class TemporaryFolder {
-public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "strainwave-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return (path_ / name).string();
-  }
-
-private:
-  std::filesystem::path path_;
-};
+using testing_support::TemporaryFolder;
 
 } // namespace strainwave

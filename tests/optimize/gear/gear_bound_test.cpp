@@ -4,6 +4,7 @@
 #include "strainwave/optimize/gear/gear_bound.hpp"
 
 #include "strainwave/model/loading/phase_problem.hpp"
+#include "tests/support/coarse_seed.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,13 +17,7 @@ namespace {
 constexpr double anything = -std::numeric_limits<double>::infinity();
 
 Gear coarse_gear(Fidelity fidelity, int heights) {
-  Gear gear = seed_gear();
-  gear.mesh = {.per_pitch = 3,
-               .along_face = 4,
-               .along_wall = 5,
-               .diaphragm = 3,
-               .tooth_height = 2,
-               .through_thickness = 1};
+  Gear gear = testing_support::coarse_seed_gear(testing_support::two_row_mesh);
   gear.contact.fidelity = fidelity;
   gear.contact.flank_points = heights;
   gear.load = {.torque_nm = {7.0}, .rotation_rad = {}, .phases = 1};

@@ -1,6 +1,7 @@
 // The evaluator of real gears, on a coarse cup that is solved in a moment.
 
 #include "strainwave/optimize/gear/gear_evaluator.hpp"
+#include "tests/support/coarse_seed.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,14 +11,7 @@ namespace strainwave {
 namespace {
 
 Gear coarse_gear() {
-  Gear gear = seed_gear();
-  gear.mesh = {.per_pitch = 3,
-               .along_face = 4,
-               .along_wall = 5,
-               .diaphragm = 3,
-               .tooth_height = 2,
-               .through_thickness = 1};
-  return gear;
+  return testing_support::coarse_seed_gear(testing_support::two_row_mesh);
 }
 
 DesignSpace u0_design() {

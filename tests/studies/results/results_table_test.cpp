@@ -37,7 +37,7 @@ ResultsTable some_results() {
 }
 
 TEST(ResultsTable, HoldsInputsOutputsStatusAndMessages) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const RowTable table = some_rows();
   write_results_table(some_results(), table, folder.path / "results.h5");
   const hid_t file = H5Fopen(folder.file("results.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -71,7 +71,7 @@ TEST(ResultsTable, HoldsInputsOutputsStatusAndMessages) {
 }
 
 TEST(ResultsTable, AFullDiskLeavesTheOldFileAndNothingBeside) {
-  const Folder folder;
+  const TemporaryFolder folder;
   put_bytes(folder.file("results.h5"), "old");
   const pid_t child = ::fork();
   if (child == 0) {
