@@ -36,7 +36,6 @@ if(NOT STRAINWAVE_UNITY) # together, a local name may be another source's
   target_compile_options(strainwave_build INTERFACE -Wshadow)
 endif()
 target_include_directories(strainwave_build INTERFACE ${PROJECT_SOURCE_DIR})
-set_property(GLOBAL PROPERTY STRAINWAVE_ROOMS strainwave_options)
 
 include(cmake/precompiled.cmake)
 
@@ -90,7 +89,9 @@ function(strainwave_room)
   strainwave_precompile(${target} ${ROOM_LIBRARIES} ${ROOM_PRIVATE})
   list(TRANSFORM ROOM_ALONE PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   strainwave_unite(${target} ${ROOM_ALONE})
-  set_property(GLOBAL APPEND PROPERTY STRAINWAVE_ROOMS ${target})
+  set_property(GLOBAL APPEND PROPERTY STRAINWAVE_ROOMS ${room})
+  set_property(GLOBAL PROPERTY STRAINWAVE_USES_${room} ${ROOM_USES})
+  set_property(GLOBAL PROPERTY STRAINWAVE_LIBRARIES_${room} ${ROOM_LIBRARIES} ${ROOM_PRIVATE})
 endfunction()
 
 # strainwave_test(NAME USES … LIBRARIES … SOURCES … ALONE …): one test program of the *_test.cpp in this folder, or of the named
@@ -111,4 +112,7 @@ function(strainwave_test name)
   add_test(NAME ${name} COMMAND test_${name} --gtest_filter=-*Nightly.*)
   add_test(NAME ${name}.nightly COMMAND test_${name} --gtest_filter=*Nightly.*)
   set_tests_properties(${name}.nightly PROPERTIES LABELS nightly)
+  if(STRAINWAVE_NO_SKIPS)
+    set_tests_properties(${name} ${name}.nightly PROPERTIES FAIL_REGULAR_EXPRESSION "SKIPPED .* test")
+  endif()
 endfunction()
