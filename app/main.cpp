@@ -2,8 +2,9 @@
 
 #include "app/commands.hpp"
 #include "app/output.hpp"
-#include "app/version.hpp"
 #include "app/wrong_use.hpp"
+
+#include "strainwave/version.hpp"
 
 namespace strainwave::app {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 ExitCode read_and_run(int argc, char** argv) {
   CLI::App app("Backlash, meshing forces and torsional stiffness of strain wave gears (harmonic drives).",
                "strainwave");
-  app.set_version_flag("--version", "strainwave " + std::string(program_version()),
+  app.set_version_flag("--version", std::string("strainwave ") + library_version,
                        "Print the version and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
   app.require_subcommand(0, 1); // none at all gets our own sentence

@@ -51,7 +51,8 @@ ExitCode run_search(const StudyOptions& options, const StudyFile& study, const R
   print(options.json ? optimisation_json(*report_now, name).dump(2) + "\n"
                      : optimisation_table(*report_now, name));
   if (report_now->verdict != Verdict::converged)
-    report(std::string(verdict_name(report_now->verdict)) + ": " + report_now->message);
+    report(std::string(verdict_name(report_now->verdict)) + ": " + report_now->message +
+           (report_now->verdict == Verdict::stopped ? "; the same command goes on from here" : ""));
   if (!report_now->too_many_failed.empty() && report_now->verdict != Verdict::stopped) {
     report(report_now->too_many_failed);
     return ExitCode::no_result;

@@ -36,7 +36,6 @@ if(NOT STRAINWAVE_UNITY) # together, a local name may be another source's
   target_compile_options(strainwave_build INTERFACE -Wshadow)
 endif()
 target_include_directories(strainwave_build INTERFACE ${PROJECT_SOURCE_DIR})
-set_property(GLOBAL PROPERTY STRAINWAVE_ROOMS strainwave_options)
 
 include(cmake/precompiled.cmake)
 
@@ -90,7 +89,9 @@ function(strainwave_room)
   strainwave_precompile(${target} ${ROOM_LIBRARIES} ${ROOM_PRIVATE})
   list(TRANSFORM ROOM_ALONE PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   strainwave_unite(${target} ${ROOM_ALONE})
-  set_property(GLOBAL APPEND PROPERTY STRAINWAVE_ROOMS ${target})
+  set_property(GLOBAL APPEND PROPERTY STRAINWAVE_ROOMS ${room})
+  set_property(GLOBAL PROPERTY STRAINWAVE_USES_${room} ${ROOM_USES})
+  set_property(GLOBAL PROPERTY STRAINWAVE_LIBRARIES_${room} ${ROOM_LIBRARIES} ${ROOM_PRIVATE})
 endfunction()
 
 # BLAS kernels of three generations, those that this processor can run: OpenBLAS does not check a name that it is given.
@@ -132,5 +133,8 @@ function(strainwave_test name)
       add_test(NAME ${name}.${kernel} COMMAND test_${name} --gtest_filter=-*Nightly.*)
       set_tests_properties(${name}.${kernel} PROPERTIES LABELS nightly ENVIRONMENT OPENBLAS_CORETYPE=${kernel})
     endforeach()
+  endif()
+  if(STRAINWAVE_NO_SKIPS)
+    set_tests_properties(${name} ${name}.nightly PROPERTIES FAIL_REGULAR_EXPRESSION "SKIPPED .* test")
   endif()
 endfunction()

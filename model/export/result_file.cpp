@@ -1,6 +1,7 @@
 #include "strainwave/model/export/result_file.hpp"
 
 #include "strainwave/model/gear/fields.hpp"
+#include "strainwave/version.hpp"
 
 #include <fmt/format.h>
 #include <hdf5.h>
@@ -205,7 +206,7 @@ void write_result_file(const ForwardResult& result, const std::string& config,
     throw refused(std::error_code(errno != 0 ? errno : EIO, std::generic_category()));
   try {
     text(file, "config", config);
-    text(file, "version", STRAINWAVE_VERSION);
+    text(file, "version", library_version);
     text(file, "status", status_name(result.status));
     text(file, "message", result.message);
     text(file, "fidelity", choice_name(result.fidelity));

@@ -1,6 +1,7 @@
 #include "strainwave/model/export/result_json.hpp"
 
 #include "strainwave/model/gear/fields.hpp"
+#include "strainwave/version.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -98,7 +99,7 @@ Json result_json(const ForwardResult& result) {
   Json json;
   json["gear"] = result.gear;
   json["fidelity"] = choice_name(result.fidelity);
-  json["version"] = STRAINWAVE_VERSION;
+  json["version"] = library_version;
   json["status"] = status_name(result.status);
   json["message"] = result.message;
   if (const auto& wg = result.wave_generator) {

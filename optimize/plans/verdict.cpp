@@ -131,8 +131,8 @@ Judgement judge(const Problem& problem, const SearchResult& found, bool confirme
   if (!same_bits(first.values, again.values))
     return say(Verdict::stalled, "the optimum does not stand: evaluated again it gives other numbers");
   if (found.end == SearchEnd::stopped)
-    return say(Verdict::stopped, "stopped before its end (time limit or signal); this is the best design so "
-                                 "far. A new run starts from the beginning");
+    return say(Verdict::stopped,
+               "stopped before its end (time limit or signal); this is the best design so far");
   if (!feasible(*judgement.best))
     return say(Verdict::infeasible,
                "no design keeps all limits; nearest to it: " + violations(problem, again));

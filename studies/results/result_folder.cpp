@@ -5,6 +5,7 @@
 #include "strainwave/common/rows/merge.hpp"
 #include "strainwave/model/gear/fields.hpp"
 #include "strainwave/model/gear_file/gear_file.hpp"
+#include "strainwave/version.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -92,7 +93,7 @@ void ResultFolder::write_plan(const StudyFile& study) const {
   nlohmann::ordered_json plan;
   plan["kind"] = study_kinds[static_cast<std::size_t>(study.kind)];
   plan["name"] = fs::path(study.file).stem().string();
-  plan["version"] = STRAINWAVE_VERSION;
+  plan["version"] = library_version;
   plan["hash"] = hash_text(plan_hash(study));
   plan["seed"] = study.seed;
   plan["reduced"] = study.reduced;
@@ -114,9 +115,9 @@ StudyFile read_plan(const fs::path& folder, const StudyVocabulary& vocabulary) {
   for (const char* key : {"study", "gear", "hash", "version", "name"})
     if (!plan.is_object() || !plan.contains(key) || !plan[key].is_string())
       throw refuse(fmt::format("is no plan of a study: \"{}\" is missing", key));
-  if (plan["version"] != STRAINWAVE_VERSION)
+  if (plan["version"] != library_version)
     throw refuse(fmt::format("was made by version {}, this is {}; use that version or run the study again",
-                             plan["version"].get<std::string>(), STRAINWAVE_VERSION));
+                             plan["version"].get<std::string>(), library_version));
   StudyFile study =
       restore_study(plan["study"].get<std::string>(), plan["gear"].get<std::string>(), path, vocabulary);
   study.file = plan["name"].get<std::string>() + ".toml";
@@ -130,7 +131,7 @@ StudyFile read_plan(const fs::path& folder, const StudyVocabulary& vocabulary) {
 std::uint64_t plan_hash(const StudyFile& study) {
   StudyFile placeless = study;
   placeless.gear_file = "gear.toml"; // what counts is its content
-  return content_hash(write_study(placeless) + canonical_bits(study.gear) + STRAINWAVE_VERSION);
+  return content_hash(write_study(placeless) + canonical_bits(study.gear) + library_version);
 }
 
 std::string config_text(const StudyFile& study) {
@@ -140,7 +141,7 @@ std::string config_text(const StudyFile& study) {
 }
 
 std::string_view study_version() {
-  return STRAINWAVE_VERSION;
+  return library_version;
 }
 
 fs::path default_result_folder(const StudyFile& study) {

@@ -59,8 +59,8 @@ std::vector<ModelVariant> optimum_variants(const Gear& baseline, const Gear& bes
                                            const std::vector<Load>& loads, ForwardModel& model) {
   std::vector<ModelVariant> variants;
   for (const Change& change : changes(best))
-    variants.push_back(
-        {std::string(change.name), analyse(baseline, loads, change, model), analyse(best, loads, change, model)});
+    variants.push_back({std::string(change.name), analyse(baseline, loads, change, model),
+                        analyse(best, loads, change, model)});
   return variants;
 }
 

@@ -55,8 +55,8 @@ struct SampledStudy {
   std::uint64_t rows = 0;
   std::uint32_t block_rows = 1024; ///< rows of one journal record: about a second of work or 1024;
                                    ///< monte_carlo with `stop`: a power of two of at most 1024
-  std::uint64_t cups = 1;      ///< finite-element solutions among the rows, for cost estimates
-  std::size_t slice_rows = 64; ///< rows between two looks at the stop flag: at most a second of work
+  std::uint64_t cups = 1;          ///< finite-element solutions among the rows, for cost estimates
+  std::size_t slice_rows = 64;     ///< rows between two looks at the stop flag: at most a second of work
   std::vector<std::string> status_names; ///< by status: [0] = "ok"
   std::string model_content; ///< what rows depend on beside the plan and the program's version: tables that
                              ///< were read, version number of the row model
