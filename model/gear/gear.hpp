@@ -118,8 +118,8 @@ struct Mesh {
 enum class Direction { drive, coast, both };
 
 struct Load {
-  std::vector<double> torque_nm;
-  std::vector<double> rotation_rad;
+  std::vector<double> torque_nm = {};
+  std::vector<double> rotation_rad = {};
   double rated_torque_nm = 7.0;
   Direction direction = Direction::drive;
   int phases = 1;

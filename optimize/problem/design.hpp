@@ -26,7 +26,7 @@ struct DesignVariable {
   double upper = 0.0;
   double start = 0.0;
   double scale = 0.0; ///< typical change; 0: upper − lower
-  std::vector<LinkedNumber> links;
+  std::vector<LinkedNumber> links = {};
 };
 
 class DesignSpace {

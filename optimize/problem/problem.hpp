@@ -25,10 +25,10 @@ struct Objective {
 /// At least one limit is given; a response may have two.
 struct Constraint {
   std::string output;
-  std::optional<double> min;
-  std::optional<double> max;
-  std::optional<double> min_ratio_to_baseline;
-  std::optional<double> max_ratio_to_baseline;
+  std::optional<double> min = {};
+  std::optional<double> max = {};
+  std::optional<double> min_ratio_to_baseline = {};
+  std::optional<double> max_ratio_to_baseline = {};
 };
 
 /// One side of a constraint, with its number.

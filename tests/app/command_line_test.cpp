@@ -127,7 +127,7 @@ TEST_F(CommandLine, UnreadableFileIsTheEnvironment) {
   // Root reads everything, unless it gives that right away.
   const std::string plain = geteuid() == 0 ? "setpriv --bounding-set=-dac_override,-dac_read_search " : "";
   EXPECT_EQ(shell(plain + "PROGRAM check gear.toml"), 74);
-  EXPECT_EQ(file_text(folder / "err.txt"), "strainwave: cannot read gear.toml: Permission denied\n");
+  EXPECT_EQ(text_of(folder / "err.txt"), "strainwave: cannot read gear.toml: Permission denied\n");
 }
 
 TEST_F(CommandLine, AReadErrorIsTheEnvironment) {

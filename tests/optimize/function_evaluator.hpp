@@ -16,6 +16,10 @@ inline std::string limit_name(std::size_t k) {
   return std::string("g").append(std::to_string(k));
 }
 
+inline double square(double a) {
+  return a * a;
+}
+
 /// Responses "f", "g0", "g1", … of a function that returns them all.
 class FunctionEvaluator : public Evaluator {
 public:

@@ -11,9 +11,6 @@ namespace strainwave {
 namespace {
 
 using X = std::span<const double>;
-double square(double a) {
-  return a * a;
-}
 double rosenbrock(X x) {
   return 100.0 * square(x[1] - x[0] * x[0]) + square(1.0 - x[0]);
 }

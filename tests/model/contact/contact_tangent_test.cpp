@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 namespace {
 
 constexpr int teeth = 3, stations = 4, columns = 2;
@@ -124,4 +124,4 @@ TEST(WaveGeneratorSurface, DerivativesConvergeWithOrderTwo) {
 }
 
 } // namespace
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

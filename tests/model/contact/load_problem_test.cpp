@@ -14,8 +14,8 @@
 namespace strainwave {
 namespace {
 
-using testing::reference;
-using testing::reference_cup;
+using testing_support::reference;
+using testing_support::reference_cup;
 
 class SeedGearOnReferenceCup : public ::testing::Test {
 protected:

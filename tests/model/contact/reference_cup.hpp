@@ -10,7 +10,7 @@
 #include <fstream>
 #include <string>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 
 inline nlohmann::json reference(const std::string& name) {
   std::ifstream file(std::string(STRAINWAVE_TEST_REFERENCE) + "/" + name);
@@ -70,4 +70,4 @@ inline UnitResponses reference_cup() {
   return u;
 }
 
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

@@ -40,7 +40,8 @@ protected:
   SmoothCup()
       : ring(*shared_responses, {22.5, 23.5, 24.5, 25.5, 26.5}, true),
         surface({.eccentricity_mm = 0.6, .neutral_disc_radius_mm = 13.606}, 13.856, 0.15),
-        assembled(assemble(ring, surface, 0.0, solver).value()), json(testing::reference("assembly.json")) {}
+        assembled(assemble(ring, surface, 0.0, solver).value()),
+        json(testing_support::reference("assembly.json")) {}
 
   RingCompliance ring;
   WaveGeneratorSurface surface;

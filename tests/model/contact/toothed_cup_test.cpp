@@ -165,7 +165,7 @@ TEST_P(SeedGearLoadedAtTheTips, ReproducesTheIndependentColumn) {
   const WaveGeneratorSurface discs = seed_discs(column.linearised_gap);
   ContactSolver solver;
   const AssembledState assembled = assemble(ring, discs, 0.0, solver).value();
-  const auto json = testing::reference("load-path.json");
+  const auto json = testing_support::reference("load-path.json");
   std::vector<LoadedPoint> points;
   for (std::size_t i = 0; i < json["tooth"].size(); ++i) {
     points.push_back({.tooth = json["tooth"][i],

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 
 /// splitmix64 (Steele, Lea, Flood 2014) of a counter: number `n` of stream `stream`.
 class Counted {
@@ -164,4 +164,4 @@ inline Gear random_gear(std::uint64_t index) {
   return gear;
 }
 
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

@@ -14,7 +14,7 @@
 #include <new>
 #include <regex>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 namespace {
 
 ForwardModel& model() {
@@ -125,4 +125,4 @@ TEST(AnyGearNightly, ManyRandomGearsEndWell) {
 }
 
 } // namespace
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

@@ -41,7 +41,7 @@ std::array<Difference, 5> differences(double up_to_deg) {
       {.eccentricity_mm = 0.6, .neutral_disc_radius_mm = 13.606, .middle_z_mm = 24.5}, 13.856, 0.15);
   ContactSolver solver;
   const AssembledState assembled = assemble(ring, discs, 0.0, solver).value();
-  const auto json = testing::reference("assembly.json");
+  const auto json = testing_support::reference("assembly.json");
   std::array<Difference, 5> all;
   for (std::size_t k = 0; k < sections.size(); ++k) {
     const char* z = sections[k];

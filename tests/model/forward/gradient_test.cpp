@@ -12,7 +12,7 @@
 #include <map>
 #include <stdexcept>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 namespace {
 
 const std::string fs = "flank_modification.flexspline.", cs = "flank_modification.circular_spline.";
@@ -275,4 +275,4 @@ TEST(Gradient, RefusesKeysThatActThroughTheFiniteElements) {
 }
 
 } // namespace
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

@@ -3,6 +3,7 @@
 
 #include "strainwave/model/forward/ring_pair.hpp"
 #include "strainwave/model/lcp/sampled_contact.hpp"
+#include "tests/model/forward/shared_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,13 +14,9 @@
 namespace strainwave {
 namespace {
 
-ForwardModel& shared_model() {
-  static ForwardModel model({.disk_cache = false});
-  return model;
-}
-
 const NominalMesh& seed_mesh() {
-  static const NominalMesh mesh = nominal_mesh(shared_model(), seed_gear(), {.disk_cache = false}).value();
+  static const NominalMesh mesh =
+      nominal_mesh(testing_support::shared_model(), seed_gear(), {.disk_cache = false}).value();
   return mesh;
 }
 
@@ -45,7 +42,7 @@ struct RandomTeeth {
 TEST(SampledContact, NominalSampleOfTheRingIsTheForwardModelsLoad) {
   Gear gear = seed_gear();
   gear.load.torque_nm = {7.0};
-  const ForwardResult folded = shared_model().analyze(gear);
+  const ForwardResult folded = testing_support::shared_model().analyze(gear);
   const LoadResult& load = folded.load.at(0);
   const SampledContact contact(seed_load().problem, static_cast<int>(seed_mesh().teeth.size()),
                                seed_load().state);

@@ -3,7 +3,7 @@
 // each tooth at its own contact height, which leaves the torque and moves the peak: with the same heights the
 // peaks are compared in tests/model/contact/toothed_cup_test.cpp.
 
-#include "strainwave/model/forward/forward.hpp"
+#include "tests/model/forward/shared_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,6 @@
 
 namespace strainwave {
 namespace {
-
-ForwardModel& shared_model() {
-  static ForwardModel model({.disk_cache = false});
-  return model;
-}
 
 Gear seed_at(std::vector<double> rotations, Fidelity fidelity, DiscGap gap) {
   Gear gear = seed_gear();
@@ -37,8 +32,8 @@ class SeedGear : public ::testing::TestWithParam<Column> {};
 
 TEST_P(SeedGear, ReproducesTheIndependentColumn) {
   const Column& column = GetParam();
-  const ForwardResult result =
-      shared_model().analyze(seed_at({1e-3, 2e-3, 3.38e-3, 4.5e-3}, column.fidelity, column.gap));
+  const ForwardResult result = testing_support::shared_model().analyze(
+      seed_at({1e-3, 2e-3, 3.38e-3, 4.5e-3}, column.fidelity, column.gap));
   ASSERT_EQ(result.status, Status::ok) << result.message;
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_NEAR(result.load[i].torque_nm, column.torque_nm[i], 0.04 * column.torque_nm[i]) << i;
@@ -53,10 +48,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Column{Fidelity::unilateral, DiscGap::exact, {3.02, 6.26, 11.85, 16.9}}));
 
 TEST(SeedGearLoad, FirstToothToEngageIsTheOneNearestToTheLeastBacklash) {
-  const ForwardResult backlash = shared_model().analyze(seed_gear(), Want::backlash);
+  const ForwardResult backlash = testing_support::shared_model().analyze(seed_gear(), Want::backlash);
   const double first = backlash.backlash->min_um * 1e-3 / 14.7714;
   const ForwardResult result =
-      shared_model().analyze(seed_at({first * 1.05}, Fidelity::unilateral, DiscGap::exact));
+      testing_support::shared_model().analyze(seed_at({first * 1.05}, Fidelity::unilateral, DiscGap::exact));
   ASSERT_EQ(result.load[0].engaged_count, 1);
   EXPECT_NEAR(result.load[0].peak_phi_deg, 2 * 360.0 / 140.0, 1e-9); // 5.14°, nearest to 5.22°
 }
@@ -64,7 +59,7 @@ TEST(SeedGearLoad, FirstToothToEngageIsTheOneNearestToTheLeastBacklash) {
 TEST(SeedGearLoad, PeakMovesTowardsSmallerAnglesAtHighLoad) {
   Gear gear = seed_gear();
   gear.load.torque_nm = {1.0, 11.5};
-  const ForwardResult result = shared_model().analyze(gear);
+  const ForwardResult result = testing_support::shared_model().analyze(gear);
   EXPECT_LT(result.load[1].peak_phi_deg, result.load[0].peak_phi_deg);
 }
 

@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 
 inline constexpr double degree = std::numbers::pi / 180.0;
 
@@ -36,4 +36,4 @@ inline double mean_displacement_mm(const NeutralCurve& curve, int points = 20000
   return sum / points;
 }
 
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

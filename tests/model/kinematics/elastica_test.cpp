@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 namespace {
 
 using units::pi;
@@ -140,4 +140,4 @@ TEST(Elastica, SolvesOverTheWholeRangeOrSaysWhyNot) {
 }
 
 } // namespace
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

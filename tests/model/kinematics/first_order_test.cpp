@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 namespace {
 
 using units::pi;
@@ -240,4 +240,4 @@ TEST(EveryShape, MeaninglessNumbersAreRefused) {
 }
 
 } // namespace
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

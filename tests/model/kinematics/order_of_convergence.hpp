@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 
 struct OrderReport {
   bool good = false;
@@ -39,4 +39,4 @@ OrderReport order_of_convergence(const Function& f, double derivative, double st
   return report;
 }
 
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 namespace {
 
 /// One number of the gear, its column, its scale and the factor from the file's unit to the column's.
@@ -113,4 +113,4 @@ TEST(PoseDerivatives, TheOrderCheckFindsAWrongEntry) {
 }
 
 } // namespace
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

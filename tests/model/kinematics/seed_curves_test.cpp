@@ -9,7 +9,7 @@
 
 #include <fstream>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 namespace {
 
 nlohmann::json reference() {
@@ -82,4 +82,4 @@ TEST(SeedCurves, WhatIsMeasuredAtTheMajorAxisIsU0) {
 }
 
 } // namespace
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

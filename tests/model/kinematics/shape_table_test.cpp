@@ -11,7 +11,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 namespace {
 
 class ShapeTableTest : public ::testing::Test {
@@ -128,4 +128,4 @@ TEST_F(ShapeTableTest, AbsurdDisplacementIsAContradiction) {
 }
 
 } // namespace
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

@@ -12,7 +12,7 @@
 #include <map>
 #include <stdexcept>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 namespace {
 
 /// The key behind a path, and a step at which truncation is above rounding but the contact stays where it is.
@@ -236,4 +236,4 @@ TEST(BacklashGradient, UnknownPathIsNamed) {
 }
 
 } // namespace
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

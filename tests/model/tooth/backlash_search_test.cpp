@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -242,4 +242,4 @@ TEST(LeastBacklash, StaysInTheWindow) {
 }
 
 } // namespace
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

@@ -14,7 +14,7 @@
 #include <numbers>
 #include <vector>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 
 struct XY {
   double x, y;
@@ -102,4 +102,4 @@ inline BruteForce brute_force_backlash(const Gear& gear, const Pose& pose, doubl
   return best;
 }
 
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

@@ -3,10 +3,10 @@
 
 #include "strainwave/model/kinematics/neutral_curve.hpp"
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 
 inline NeutralCurve curve_of(const Gear& gear) {
   return NeutralCurve::make(gear.wave_generator, gear.flexspline).value();
 }
 
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 namespace {
 
 const std::string fs = "flank_modification.flexspline.", cs = "flank_modification.circular_spline.";
@@ -136,4 +136,4 @@ TEST(FlankSearch, BreaksOfTwoReliefsAtOnePlaceAreOneKink) {
 }
 
 } // namespace
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

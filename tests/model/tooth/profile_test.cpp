@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 namespace {
 
 TEST(Profile, PlainFlanksAreTheSourceTextsInvolutes) {
@@ -93,4 +93,4 @@ TEST(Profile, PosedFlankStandsWhereThePoseSays) {
 }
 
 } // namespace
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <random>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 namespace {
 
 class RandomGear {
@@ -131,4 +131,4 @@ TEST(RandomGearsNightly, AgreeWithBruteForce) {
 }
 
 } // namespace
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

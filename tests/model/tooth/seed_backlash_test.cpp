@@ -29,7 +29,7 @@ Gear seed(WaveGeneratorShape shape) {
 }
 
 void expect_every_tooth(const Gear& gear, const nlohmann::json& expected) {
-  const auto result = backlash(gear, curve_of(gear));
+  const auto result = backlash(gear, testing_support::curve_of(gear));
   ASSERT_TRUE(result.ok());
   ASSERT_EQ(expected["teeth"].size(), 28u);
   for (const auto& row : expected["teeth"]) {
@@ -45,7 +45,7 @@ void expect_every_tooth(const Gear& gear, const nlohmann::json& expected) {
 }
 
 void expect_least(const Gear& gear, const nlohmann::json& expected) {
-  const auto least = least_backlash(gear, curve_of(gear));
+  const auto least = least_backlash(gear, testing_support::curve_of(gear));
   ASSERT_TRUE(least.ok());
   EXPECT_NEAR(least->backlash_mm, expected["continuous_minimum"]["backlash_mm"].get<double>(), 1e-12);
   // The reference searched for the least value: its place is known to the square root of rounding, 1e-5
@@ -74,18 +74,18 @@ TEST(SeedBacklash, SmallerCircularSplineShiftInterferes) {
   // per unit of x2.
   Gear gear = seed(WaveGeneratorShape::two_disc);
   gear.circular_spline.profile_shift = 2.13;
-  const auto least = least_backlash(gear, curve_of(gear));
+  const auto least = least_backlash(gear, testing_support::curve_of(gear));
   ASSERT_TRUE(least.ok());
   EXPECT_NEAR(1e3 * least->backlash_mm, -0.66, 0.005);
   EXPECT_NEAR(least->phi_rad / degree, 5.2187, 5e-5);
-  EXPECT_TRUE(backlash(gear, curve_of(gear))->interference());
-  EXPECT_FALSE(backlash(seed(WaveGeneratorShape::two_disc), curve_of(gear))->interference());
+  EXPECT_TRUE(backlash(gear, testing_support::curve_of(gear))->interference());
+  EXPECT_FALSE(backlash(seed(WaveGeneratorShape::two_disc), testing_support::curve_of(gear))->interference());
 }
 
 TEST(SeedBacklash, LeastGrowsBy76MicrometresPerUnitOfCircularSplineShift) {
   Gear gear = seed(WaveGeneratorShape::two_disc);
   gear.contact.window_deg = {5.1, 5.2};
-  const NeutralCurve curve = curve_of(gear);
+  const NeutralCurve curve = testing_support::curve_of(gear);
   const auto at = backlash(gear, curve);
   ASSERT_TRUE(at.ok());
   ASSERT_EQ(at->tooth.size(), 1u);
@@ -95,7 +95,7 @@ TEST(SeedBacklash, LeastGrowsBy76MicrometresPerUnitOfCircularSplineShift) {
 
 TEST(SeedBacklash, EdgesLimitTheGapOfTheUnmodifiedFlanks) {
   const Gear gear = seed(WaveGeneratorShape::two_disc);
-  const auto result = backlash(gear, curve_of(gear));
+  const auto result = backlash(gear, testing_support::curve_of(gear));
   for (std::size_t k = 0; k < result->tooth.size(); ++k) {
     if (result->tooth[k] == -3) {
       EXPECT_EQ(result->drive[k].place, ContactPlace::circular_spline_tip);

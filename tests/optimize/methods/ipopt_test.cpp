@@ -12,10 +12,6 @@ namespace {
 
 using X = std::span<const double>;
 
-double square(double a) {
-  return a * a;
-}
-
 SearchResult run(const KnownProblem& known, std::size_t pieces, const SearchSettings& settings,
                  int* calls = nullptr) {
   FunctionEvaluator evaluator(known.function, known.limits, pieces);

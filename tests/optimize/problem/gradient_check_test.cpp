@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace strainwave::testing {
+namespace strainwave::testing_support {
 namespace {
 
 /// Two responses and two pieces of two variables, all smooth but the last response, |x₀ − ¼|.
@@ -212,4 +212,4 @@ TEST(GearEvaluatorGradient, DifferencesWhatActsThroughTheFiniteElements) {
 }
 
 } // namespace
-} // namespace strainwave::testing
+} // namespace strainwave::testing_support

@@ -134,14 +134,14 @@ TEST(SampledStudyFile, ReadsBackToTheSameStudy) {
   }
 }
 
-struct Golden {
+struct SampledGolden {
   const std::string& study;
   std::string before, after, message;
 };
 
 TEST(SampledStudyFile, MessagesAreExactlyThese) {
   const StudyFolder folder;
-  const std::vector<Golden> goldens{
+  const std::vector<SampledGolden> goldens{
       {good_sweep, "[sweep]", "[sampling]",
        "study.toml:17:2: sampling: is of no use in a study of kind \"sweep\""},
       {good_sweep, "values = [10.0, 12.5]\n", "",
@@ -205,7 +205,7 @@ TEST(SampledStudyFile, MessagesAreExactlyThese) {
       {good_sensitivity, "levels = 6", "levels = 5",
        "study.toml:15:10: sensitivity.levels: must be even, is 5"},
   };
-  for (const Golden& golden : goldens)
+  for (const SampledGolden& golden : goldens)
     EXPECT_EQ(folder.complaint(edited(golden.study, golden.before, golden.after)), golden.message);
 }
 

@@ -1,6 +1,7 @@
 // Rows of samples against one gear at a time: its own assembly, direct geometry and Newton steps on the whole
 // ring.
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/meshing/gear_surface.hpp"
 #include "tests/studies/tolerances/sampled_rows.hpp"
 
@@ -12,7 +13,7 @@
 namespace strainwave {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 /// One gear as it is, on the whole ring: discs by assembly and Newton steps, pitch errors [µm] put into the
 /// direct geometry.

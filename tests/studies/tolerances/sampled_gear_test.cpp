@@ -1,6 +1,7 @@
 // Rows of samples against the forward model on the gear that a row describes, and against direct geometry and
 // the general solver for errors of single teeth.
 
+#include "strainwave/common/core/units.hpp"
 #include "strainwave/model/forward/forward.hpp"
 
 #include "strainwave/studies/tolerances/monte_carlo.hpp"
@@ -17,7 +18,7 @@
 namespace strainwave {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 double least(const std::vector<double>& values) {
   double found = 1e300;
