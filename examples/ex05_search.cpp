@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
                             .start = 2.0};
     };
     const DesignSpace design({relief("tip_relief_um"), relief("root_relief_um")});
-    const std::vector<Load> loads = {Load{.torque_nm = {7.0}}};
+    const std::vector<Load> loads = {Load{.torque_nm = {7.0}, .phases = 4}};
     GearEvaluator evaluator(gear, design, loads), fresh(gear, design, loads);
     const Evaluation unmodified = evaluator.evaluate_base();
     if (!unmodified.ok) {

@@ -35,13 +35,19 @@ private:
   int id_;
 };
 
-/// Where a link leads; `path` itself where nothing is yet.
-fs::path target_of(const fs::path& path) {
+/// Where a link leads, over further links and also to what is not there yet; `path` itself where it is no
+/// link.
+fs::path target_of(fs::path path) {
   std::error_code unknown;
-  if (!fs::is_symlink(path, unknown))
-    return path;
-  fs::path target = fs::weakly_canonical(path, unknown);
-  return unknown ? path : target;
+  for (int links = 0; fs::is_symlink(path, unknown); ++links) {
+    if (links == 40)
+      cannot_write(path, ELOOP);
+    const fs::path next = fs::read_symlink(path, unknown);
+    if (unknown)
+      cannot_write(path, unknown.value());
+    path = path.parent_path() / next; // an absolute one replaces the folder
+  }
+  return path;
 }
 
 /// A name beside the target that is not there yet. Numbers tell the threads of a process apart; on a shared

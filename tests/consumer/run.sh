@@ -38,7 +38,7 @@ configure() { # FOLDER ARGUMENTS …
   cmake -S "$here" -B "$folder/$to" -G Ninja -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_BUILD_TYPE=Release "$@" > "$folder/$to.log" 2>&1 ||
     { cat "$folder/$to.log"; fail "configuring failed: $*"; }
 }
-configure forward -DCMAKE_DISABLE_FIND_PACKAGE_CLI11=ON -DCMAKE_DISABLE_FIND_PACKAGE_NLopt=ON -DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON
+configure forward -DCMAKE_DISABLE_FIND_PACKAGE_CLI11=ON -DCMAKE_DISABLE_FIND_PACKAGE_NLopt=ON
 cmake --build "$folder/forward" > "$folder/build.log" 2>&1 || { cat "$folder/build.log"; fail "building failed"; }
 answer=$("$folder/forward/consumer" "$source/studies/gallery/seed.toml")
 echo "$answer"

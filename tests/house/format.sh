@@ -4,6 +4,8 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 tool=$(command -v clang-format-14 || command -v clang-format) || { echo "clang-format (package clang-format-14) is not installed"; exit 1; }
 "$tool" --version | grep -q 'version 14\.' || { echo "wanted is clang-format 14, $tool is $("$tool" --version)"; exit 1; }
-find common model optimize surrogates studies app bench examples tests \( -name '*.cpp' -o -name '*.hpp' \) -print0 2>/dev/null |
+folders=()
+for folder in common model optimize surrogates studies app bench examples tests; do [ ! -d $folder ] || folders+=($folder); done
+find "${folders[@]}" \( -name '*.cpp' -o -name '*.hpp' \) -print0 |
   xargs -0 -n 40 -P "$(nproc)" "$tool" --dry-run -Werror
 echo "formatted"
