@@ -13,7 +13,7 @@
 // sides (a station of 0 that lifts off has its gap as unknown): some 30 instead of 150, with the matrix [S B;
 // Bᵀ −C] of signed_factor.hpp. All forces and gaps, teeth and walls, are computed and have to have the right
 // sign, so the result is the solution of the whole problem. The active set changes block by block as in
-// lcp.hpp and always starts from the nominal one; the last system is solved on the final set in ascending
+// solver.hpp and always starts from the nominal one; the last system is solved on the final set in ascending
 // order: no sample shapes the next. Should the blocks not end, ContactSolver solves the whole problem.
 //
 // Reference: principal pivot transforms, Cottle, Pang, Stone, The Linear Complementarity Problem (1992),

@@ -102,7 +102,7 @@ public:
   /// be negative. Wedged: the rotation at no torque.
   Outcome<double> take_up(const ContactProblem& problem, const ContactOptions& options = {});
 
-  /// Exact path from event to event (lcp_path.hpp).
+  /// Exact path from event to event (path.hpp).
   EventPath trace(const ContactProblem& problem, const PathRange& range, const ContactOptions& options = {});
   void trace(const ContactProblem& problem, const PathRange& range, const ContactOptions& options,
              EventPath& path);

@@ -4,7 +4,7 @@
 // 0. Two threads that ask for the same point at the same time get one evaluation.
 //
 // What is known from an earlier run (know()) is answered like what this run has found; what is new is handed
-// to a listener, which keeps it (studies/search_journal.hpp). So a search that is run again from its start
+// to a listener, which keeps it (studies/search/journal.hpp). So a search that is run again from its start
 // goes on where it was stopped.
 
 #include "strainwave/optimize/problem/evaluator.hpp"

@@ -134,7 +134,7 @@ private:
   void read_gear(const toml::table& root);
   void take_loads_from_gear();
 
-  // study_reduced.cpp
+  // reduced.cpp
   void read_reduced(const toml::table& table);
   void settle_reduced_changes();
   void apply_below(const std::string& prefix, const toml::table& table);

@@ -1,5 +1,5 @@
 #pragma once
-// JSON Schema and reference page of study files, made from the tables of study_keys.hpp.
+// JSON Schema and reference page of study files, made from the tables of keys.hpp.
 
 #include <nlohmann/json_fwd.hpp>
 

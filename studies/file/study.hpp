@@ -1,6 +1,6 @@
 #pragma once
 // Study files: TOML that names a gear, what may vary, what is wanted and how to search. What sweeps,
-// tolerances and sensitivities say stands in study_sampling.hpp; the rest here.
+// tolerances and sensitivities say stands in sampling.hpp; the rest here.
 //
 //     kind = "optimize"
 //     gear = "seed.toml"                          # relative to the study file

@@ -54,14 +54,14 @@ struct FailureCount {
   std::string example; ///< the sentence of one of them
 };
 
-/// What no clearance of single teeth could beat, beside the optimum (optimize/gear_bound.hpp).
+/// What no clearance of single teeth could beat, beside the optimum (optimize/gear/gear_bound.hpp).
 struct BoundReport {
   GearBound bound;           ///< of the load whose bound lies nearest below its optimum
   double optimum_n = 0.0;    ///< peak force of that load
   std::string rotation_from; ///< what allows the rotation: "the limit" or "the optimum's own"
 };
 
-/// The unmodified gear and the optimum under a changed model (optimum_variants.hpp).
+/// The unmodified gear and the optimum under a changed model (variants.hpp).
 struct ModelVariant {
   std::string name;
   Evaluation baseline, best;

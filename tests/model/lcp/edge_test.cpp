@@ -12,7 +12,7 @@ namespace {
 
 using namespace contact_problems;
 
-ContactProblem single() { // the worked example of lcp.hpp
+ContactProblem single() { // the worked example of solver.hpp
   return {Eigen::MatrixXd::Constant(1, 1, 1e-4), Eigen::VectorXd::Constant(1, 4e-3),
           Eigen::VectorXd::Constant(1, 14.5)};
 }
