@@ -1,7 +1,7 @@
 #include "app/result_table.hpp"
 
-#include "strainwave/model/export/result_json.hpp"
 #include "strainwave/model/gear/fields.hpp"
+#include "strainwave/model/results/result.hpp"
 
 #include <fmt/format.h>
 

@@ -2,6 +2,7 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "strainwave/model/gear_file/gear_schema.hpp"
+#include "strainwave/model/results/result_fields.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -17,9 +18,15 @@ void add_schema(CLI::App& app, Command& chosen) {
   command->add_flag("--reference", *as_page, "Print the reference page of the keys instead, in Markdown");
   const auto of_studies = std::make_shared<bool>(false);
   command->add_flag("--study", *of_studies, "Of study files instead of gear files");
-  command->callback([&chosen, as_page, of_studies] {
-    chosen = [as_page, of_studies] {
-      if (*as_page)
+  const auto of_results = std::make_shared<bool>(false);
+  command
+      ->add_flag("--results", *of_results, "The keys of `analyze --json`, with units, instead; in Markdown")
+      ->excludes("--study");
+  command->callback([&chosen, as_page, of_studies, of_results] {
+    chosen = [as_page, of_studies, of_results] {
+      if (*of_results)
+        print(results_reference());
+      else if (*as_page)
         print(*of_studies ? study_reference_page() : reference_page());
       else
         print((*of_studies ? study_json_schema() : json_schema()).dump(2) + "\n");

@@ -1,9 +1,9 @@
 #pragma once
-// A forward result as an HDF5 file: one dataset per quantity, its unit in the attribute "units", the gear
-// file it came from in /config. Written beside the target and renamed into place, so that a reader never sees
-// half a file.
+// A forward result as an HDF5 file: the blocks of result_fields.hpp as groups, each number as a dataset named
+// without its unit, with the attributes "units" and "description"; arrays over teeth have these as their
+// dimension scale. The gear file that the result came from is in /config.
 //
-//   /config (text)  /version (text)  /status (text)  /message (text)  /fidelity (text)
+//   /config /gear /fidelity /version /status /message (texts)
 //   /wave_generator/*  /backlash/*  /assembly/*  /compliance/{tooth, matrix}  /stiffness/*  /certificate/*
 //   /load/0000/{rotation, torque, tooth, phi, force, loaded_backlash, …}  in the order of the gear's loads
 

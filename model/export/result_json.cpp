@@ -1,7 +1,6 @@
 #include "strainwave/model/export/result_json.hpp"
 
-#include "strainwave/model/gear/fields.hpp"
-#include "strainwave/version.hpp"
+#include "strainwave/model/results/result_fields.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -11,176 +10,64 @@ namespace strainwave {
 
 using Json = nlohmann::ordered_json;
 
-std::string_view name(StageStatus status) {
-  switch (status) {
-  case StageStatus::computed:
-    return "computed";
-  case StageStatus::reused:
-    return "reused";
-  case StageStatus::skipped:
-    return "skipped";
-  }
-  return "unknown";
-}
-
 namespace {
 
-Json number(double value) {
+Json json_of(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-Json numbers(const std::vector<double>& values) {
+template <class T>
+Json json_of(const std::vector<T>& values) {
   Json array = Json::array();
-  for (const double value : values)
-    array.push_back(number(value));
+  for (const auto& value : values)
+    array.push_back(json_of(value));
   return array;
 }
 
-Json points_json(const PointResults& points) {
-  return {{"tooth", points.tooth},
-          {"height_mm", numbers(points.flank_radius_mm)},
-          {"z_mm", numbers(points.z_mm)},
-          {"contact_radius_mm", numbers(points.contact_radius_mm)},
-          {"force_n", numbers(points.force_n)},
-          {"gap_um", numbers(points.gap_um)},
-          {"half_width_um", numbers(points.half_width_um)},
-          {"pressure_mpa", numbers(points.pressure_mpa)},
-          {"edge", points.edge}};
+Json json_of(const std::vector<int>& values) {
+  return values;
 }
 
-Json load_json(const LoadResult& load) {
-  Json json;
-  json["direction"] = choice_name(load.direction);
-  json["rotation_rad"] = load.rotation_rad;
-  json["torque_nm"] = load.torque_nm;
-  json["tooth"] = load.tooth;
-  json["phi_deg"] = numbers(load.phi_deg);
-  json["force_n"] = numbers(load.force_n);
-  json["loaded_backlash_um"] = numbers(load.loaded_backlash_um);
-  json["pressure_mpa"] = numbers(load.pressure_mpa);
-  json["engaged_count"] = load.engaged_count;
-  json["engaged_phi_deg"] =
-      load.engaged_count > 0 ? Json::array({load.engaged_lo_deg, load.engaged_hi_deg}) : Json(nullptr);
-  json["peak_force_n"] = load.peak_force_n;
-  json["peak_phi_deg"] = load.engaged_count > 0 ? Json(load.peak_phi_deg) : Json(nullptr);
-  json["peak_phase"] = load.peak_phase;
-  json["peak_pressure_mpa"] = load.peak_pressure.mpa;
-  if (load.peak_pressure.mpa > 0.0) {
-    const PressurePeak& at = load.peak_pressure;
-    json["peak_pressure_at"] = {
-        {"tooth", at.tooth}, {"phi_deg", at.phi_deg}, {"height_mm", at.flank_radius_mm},
-        {"z_mm", at.z_mm},   {"phase", at.phase},     {"edge", at.edge}};
-  } else {
-    json["peak_pressure_at"] = nullptr;
+class JsonWriter final : public ResultWriter {
+public:
+  explicit JsonWriter(Json& to) : to_(to) {}
+
+  void put(const FieldText& field, const ResultValue& value) override {
+    const std::string name(field.name);
+    std::visit(
+        [&](const auto& held) {
+          using Held = std::remove_cvref_t<decltype(held)>;
+          if constexpr (std::is_same_v<Held, Null>)
+            to_[name] = nullptr;
+          else if constexpr (std::is_same_v<Held, bool> || std::is_same_v<Held, int> ||
+                             std::is_same_v<Held, std::string>)
+            to_[name] = held;
+          else if constexpr (!std::is_same_v<Held, Absent>)
+            to_[name] = json_of(held);
+        },
+        value);
   }
-  json["peak_flank_pressure_mpa"] = load.peak_flank_pressure.mpa;
-  json["tangent_stiffness_nm_per_rad"] = load.tangent_stiffness_nm_per_rad;
-  json["disc_force_n"] = number(load.disc_force_n);
-  if (load.transmission_error_arcsec)
-    json["transmission_error_arcsec"] = *load.transmission_error_arcsec;
-  json["gap_correction"] = {{"rotation_rad", load.gap_correction_rotation_rad},
-                            {"force_n", load.gap_correction_force_n}};
-  if (!load.points.tooth.empty())
-    json["points"] = points_json(load.points);
-  if (const CoastResults& coast = load.coast; !coast.tooth.empty()) {
-    json["coast"] = {{"tooth", coast.tooth},
-                     {"phi_deg", numbers(coast.phi_deg)},
-                     {"force_n", numbers(coast.force_n)},
-                     {"peak_force_n", coast.peak_force_n}};
-    if (!coast.points.tooth.empty())
-      json["coast"]["points"] = points_json(coast.points);
+  std::unique_ptr<ResultWriter> block(std::string_view name) override {
+    Json& inside = to_[std::string(name)] = Json::object();
+    return std::make_unique<JsonWriter>(inside);
   }
-  return json;
-}
+  std::unique_ptr<ResultWriter> element(std::string_view list, std::size_t) override {
+    Json& all = to_[std::string(list)];
+    all.push_back(Json::object());
+    return std::make_unique<JsonWriter>(all.back());
+  }
+  void no_block(std::string_view name) override { to_[std::string(name)] = nullptr; }
+
+private:
+  Json& to_;
+};
 
 } // namespace
 
 Json result_json(const ForwardResult& result) {
   Json json;
-  json["gear"] = result.gear;
-  json["fidelity"] = choice_name(result.fidelity);
-  json["version"] = library_version;
-  json["status"] = status_name(result.status);
-  json["message"] = result.message;
-  if (const auto& wg = result.wave_generator) {
-    json["wave_generator"] = {{"shape", wg->shape},
-                              {"wrap_angle_deg", number(wg->wrap_angle_deg)},
-                              {"disc_radius_mm", number(wg->disc_radius_mm)},
-                              {"eccentricity_mm", number(wg->eccentricity_mm)},
-                              {"u90_mm", number(wg->u90_mm)},
-                              {"rim_strain", number(wg->rim_strain)}};
-  }
-  if (const auto& b = result.backlash) {
-    json["backlash"] = {{"tooth", b->tooth},
-                        {"phi_deg", numbers(b->phi_deg)},
-                        {"backlash_um", numbers(b->backlash_um)},
-                        {"coast_backlash_um", numbers(b->coast_backlash_um)},
-                        {"contact_radius_mm", numbers(b->contact_radius_mm)},
-                        {"min_um", number(b->min_um)},
-                        {"min_phi_deg", number(b->min_phi_deg)},
-                        {"interference", b->assembled ? b->assembled->interference : b->interference}};
-    if (const auto& a = b->assembled) {
-      Json rows = Json::array();
-      for (const auto& row : a->backlash_um)
-        rows.push_back(numbers(row));
-      json["backlash"]["assembled"] = {{"z_mm", numbers(a->z_mm)},
-                                       {"phi_deg", numbers(a->phi_deg)},
-                                       {"backlash_um", std::move(rows)},
-                                       {"min_um", number(a->min_um)},
-                                       {"min_phi_deg", number(a->min_phi_deg)},
-                                       {"min_z_mm", number(a->min_z_mm)}};
-    }
-  }
-  if (const auto& a = result.assembly) {
-    json["assembly"] = {{"contact_force_n", a->contact_force_n},
-                        {"contact_phi_deg", {a->contact_lo_deg, a->contact_hi_deg}},
-                        {"radial_deformation_mm", a->radial_deformation_mm},
-                        {"disc_shift_mm", a->disc_shift_mm},
-                        {"newton_steps", a->newton_steps}};
-  }
-  if (const auto& c = result.compliance) {
-    json["compliance"] = {{"tooth", c->tooth},
-                          {"matrix_um_per_n", c->matrix_um_per_n},
-                          {"reciprocity_error", c->reciprocity_error}};
-  }
-  if (!result.load.empty()) {
-    json["load"] = Json::array();
-    for (const LoadResult& load : result.load)
-      json["load"].push_back(load_json(load));
-  }
-  if (const auto& w = result.wedge) {
-    json["wedge"] = {{"phase", w->phase},
-                     {"rotation_rad", w->rotation_rad},
-                     {"overlap_um", w->overlap_um},
-                     {"peak_force_n", w->peak_force_n},
-                     {"sum_force_n", w->sum_force_n},
-                     {"drive_count", w->drive_count},
-                     {"coast_count", w->coast_count}};
-  } else if (!result.load.empty()) {
-    json["wedge"] = nullptr;
-  }
-  if (const auto& s = result.stiffness) {
-    json["stiffness"] = {{"secant_nm_per_rad", number(s->secant_nm_per_rad)},
-                         {"lost_motion_arcmin", number(s->lost_motion_arcmin)},
-                         {"take_up_rad", number(s->take_up_rad)},
-                         {"wind_up_rad", number(s->wind_up_rad)}};
-  }
-  if (const auto& c = result.certificate) {
-    json["certificate"] = {{"holds", c->holds()},
-                           {"complementarity", c->complementarity},
-                           {"min_gap_um", c->min_gap_um},
-                           {"min_force_n", c->min_force_n},
-                           {"reciprocity", c->reciprocity},
-                           {"equilibrium", c->equilibrium},
-                           {"exact_gap_residual_um", c->exact_gap_residual_um},
-                           {"rounding_um", c->rounding_um},
-                           {"discretisation_estimate", number(c->discretisation_estimate)}};
-  }
-  json["stages"] = Json::array();
-  for (const Stage& stage : result.stages) {
-    json["stages"].push_back(
-        {{"name", stage.name}, {"seconds", stage.seconds}, {"status", name(stage.status)}});
-  }
+  JsonWriter writer(json);
+  write_result(result, writer);
   return json;
 }
 
