@@ -127,7 +127,7 @@ public:
     coast = drive;
     std::reverse(coast.begin(), coast.end());
     for (LoadedPoint& point : coast) {
-      point.tooth = mirrored_tooth(point.tooth, 0.0);
+      point.tooth = mirrored_tooth(point.tooth, MeshingPhase{});
       point.phi_rad = -point.phi_rad;
       point.coast = true;
     }

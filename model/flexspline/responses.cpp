@@ -7,6 +7,7 @@
 #include "strainwave/model/flexspline/sparse.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,6 +15,8 @@
 namespace strainwave {
 
 namespace {
+
+std::atomic<std::uint64_t> cups_begun = 0;
 
 struct FaceRange {
   double rear, front;
@@ -144,9 +147,14 @@ ResponseFunctionals response_functionals(const ResponseRequest& r, const SectorM
   return result;
 }
 
+std::uint64_t cups_solved() {
+  return cups_begun;
+}
+
 Outcome<UnitResponses> unit_responses(const ResponseRequest& request, int threads) {
   if (const auto failure = find_flaw(request))
     return *failure;
+  ++cups_begun;
   require_memory(response_memory_bytes(request, usable_threads(threads)),
                  fmt::format("the finite elements of the flexspline ({:.0f} a tooth pitch, {} pitches)",
                              mesh_size(request.flexspline, request.mesh, request.teeth).elements,

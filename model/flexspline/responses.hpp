@@ -26,6 +26,7 @@
 #include "strainwave/model/flexspline/unit_responses.hpp"
 #include "strainwave/model/gear/gear.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace strainwave {
@@ -59,5 +60,8 @@ ResponseFunctionals response_functionals(const ResponseRequest& request, const S
 /// The unit responses of the free cup, or the sentence that says why there are none. threads 0: as many as
 /// cores; the bits of the result do not depend on it.
 Outcome<UnitResponses> unit_responses(const ResponseRequest& request, int threads = 0);
+
+/// How many cups this process has begun to solve: for those who must not solve one twice.
+std::uint64_t cups_solved();
 
 } // namespace strainwave

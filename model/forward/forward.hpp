@@ -1,12 +1,14 @@
 #pragma once
-// The forward model: the stages in order, each a pure function of what it is handed, with reuse by content.
+// The forward model: the stages in order, each a function of what it is handed (stages.hpp), with reuse by
+// content.
 //
 //     kinematics → backlash ───────────────────────────────┐
 //     flexspline (finite elements, on disk by content) ────┤
 //                → assembly → compliance ──────────────────┴→ load → responses
 //
-// One ForwardModel may be used by several threads; analyses share what they have computed. Results depend on
-// the gear alone, never on what was analysed before.
+// One ForwardModel serves any number of threads: analyses share what they have computed, whoever needs a
+// stage that is being computed waits for it, and nothing else waits. Results depend on the gear alone, never
+// on what was analysed before.
 
 #include "strainwave/model/results/result.hpp"
 
@@ -21,6 +23,7 @@ struct ContactStates;  // contact_forces.hpp
 class ForwardSolution; // gradient.hpp
 struct LoadStarts;     // phase_model.hpp
 struct PhaseProblem;   // phase_problem.hpp
+class SharedStages;    // shared_stages.hpp
 
 struct ForwardOptions {
   bool disk_cache = true; ///< unit responses on disk, in the XDG cache directory
@@ -33,35 +36,33 @@ std::optional<Failure> find_unavailable(const Gear& gear);
 class ForwardModel {
 public:
   explicit ForwardModel(ForwardOptions options = {});
-  ~ForwardModel();
-  ForwardModel(const ForwardModel&) = delete;
-  ForwardModel& operator=(const ForwardModel&) = delete;
 
   /// Never throws for a gear that cannot be computed: status and message say why. Throws std::system_error
   /// and std::bad_alloc for disk and memory, FieldError for a faulty wave_generator.table_file. `starts`: of
   /// a nominal gear, fixed by a study's plan; they save work and change no result.
-  ForwardResult analyze(const Gear& gear, Want want = Want::load, const LoadStarts* starts = nullptr);
+  ForwardResult analyze(const Gear& gear, Want want = Want::load, const LoadStarts* starts = nullptr) const;
 
   /// Where the loads of a gear's neighbours may start: its own solutions, drive side, every phase.
-  Outcome<LoadStarts> load_starts(const Gear& gear);
+  Outcome<LoadStarts> load_starts(const Gear& gear) const;
 
   /// The same numbers for Want::load without what only people look at (backlash by tooth, compliance of the
   /// teeth); where the status is ok, `solution` is what the derivatives can be had from.
-  ForwardResult analyze(const Gear& gear, std::shared_ptr<const ForwardSolution>& solution);
+  ForwardResult analyze(const Gear& gear, std::shared_ptr<const ForwardSolution>& solution) const;
 
   /// The contact forces of the assembled cup and of every load of the gear, at phase 0 in the drive
   /// direction; reuses what analyses have computed.
-  Outcome<ContactStates> contact_states(const Gear& gear);
+  Outcome<ContactStates> contact_states(const Gear& gear) const;
 
   /// The contact problem of all drive points at every phase of the gear's [load].
-  Outcome<std::vector<PhaseProblem>> phase_problems(const Gear& gear);
+  Outcome<std::vector<PhaseProblem>> phase_problems(const Gear& gear) const;
   /// Only its points; `load` stays empty.
-  Outcome<std::vector<PhaseProblem>> phase_points(const Gear& gear);
+  Outcome<std::vector<PhaseProblem>> phase_points(const Gear& gear) const;
 
-  struct State; ///< what analyses share; of forward.cpp only
+  /// For those in this room who compose stages otherwise.
+  const std::shared_ptr<SharedStages>& stages() const { return stages_; }
 
 private:
-  std::unique_ptr<State> state_;
+  std::shared_ptr<SharedStages> stages_;
 };
 
 } // namespace strainwave

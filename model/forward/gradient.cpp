@@ -1,7 +1,7 @@
 #include "strainwave/model/forward/gradient.hpp"
 
 #include "strainwave/common/core/units.hpp"
-#include "strainwave/model/forward/analysis.hpp"
+#include "strainwave/model/forward/run.hpp"
 #include "strainwave/model/gear/fields.hpp"
 #include "strainwave/model/kinematics/rim_strain.hpp"
 #include "strainwave/model/meshing/pressure.hpp"
@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 namespace strainwave {
@@ -96,6 +97,13 @@ Eigen::VectorXd rim_strain_slopes(const Gear& gear, const NeutralCurve& curve,
   return slopes;
 }
 
+std::shared_ptr<const AssembledState> known_assembly(const MountedCup& cup, MeshingPhase phase) {
+  auto assembled = cup.assembly(phase);
+  if (!assembled) // it was there during the analysis
+    throw std::logic_error("the assembly at a meshing phase was lost");
+  return std::move(assembled).value();
+}
+
 /// The discs follow the parameters so that the radial displacement in the reference section stays u0. radial:
 /// its slopes by column of the surface, the shift last.
 std::vector<double> shift_slopes(const SlopeInputs& inputs, std::vector<double> radial) {
@@ -115,66 +123,68 @@ bool has_exact_gradient(const Gear& gear, const std::string& path) {
   return !acts_on_elements(path) && (is_flank_parameter(gear, path) || is_surface_parameter(gear, path));
 }
 
-std::shared_ptr<const AssembledState> Analysis::known_assembly(double phase) {
-  auto assembled = assembly(phase);
-  if (!assembled) // it was there during the analysis
-    throw std::logic_error("the assembly at a meshing phase was lost");
-  return *assembled;
-}
-
-ForwardGradient Analysis::gradient(std::span<const std::string> parameters) {
+ForwardGradient ForwardSolution::gradient(std::span<const std::string> parameters) const {
+  const MeshedGear& meshed = *run_->meshed;
+  const MountedCup& cup = meshed.cup();
+  const Gear& gear = meshed.gear();
+  const NeutralCurve& curve = cup.curve();
+  const ForwardResult& result = run_->result;
+  const std::vector<SolvedLoad>& all_solved = run_->solved;
   ForwardGradient g;
   g.parameters.assign(parameters.begin(), parameters.end());
   for (const std::string& path : g.parameters)
-    if (!has_exact_gradient(gear_, path))
+    if (!has_exact_gradient(gear, path))
       throw std::invalid_argument("no exact gradient with respect to " + path);
   std::vector<FlankSlopes> flanks;
-  for (const double z : slice_places(*ring_->responses))
-    flanks.emplace_back(gear_, g.parameters, face_coordinate(gear_.flexspline, z));
-  SlopeInputs inputs{.gear = gear_,
-                     .curve = **curve_,
-                     .ring = ring_->compliance,
-                     .surface = *surface_,
-                     .flanks = flanks_,
+  for (const double z : slice_places(*cup.ring().responses))
+    flanks.emplace_back(gear, g.parameters, face_coordinate(gear.flexspline, z));
+  SlopeInputs inputs{.gear = gear,
+                     .curve = curve,
+                     .ring = cup.ring().compliance,
+                     .surface = cup.surface(),
+                     .flanks = meshed.flanks(),
                      .flank_slopes = std::move(flanks),
-                     .surface_slopes = SurfaceSlopes(gear_, **curve_, *surface_, g.parameters, disc_shift_),
+                     .surface_slopes =
+                         SurfaceSlopes(gear, curve, cup.surface(), g.parameters, cup.disc_shift_mm()),
                      .parameters = g.parameters};
-  if (gear_.contact.reference_section_mm && inputs.surface_slopes.columns() > 1)
+  if (gear.contact.reference_section_mm && inputs.surface_slopes.columns() > 1)
     inputs.surface_slopes.follow_shift(shift_slopes(
-        inputs, PhaseSlopes(inputs, known_assembly(0.0)).radial(*gear_.contact.reference_section_mm)));
+        inputs,
+        PhaseSlopes(inputs, known_assembly(cup, MeshingPhase{})).radial(*gear.contact.reference_section_mm)));
 
-  std::map<double, std::unique_ptr<const PhaseSlopes>> phases;
-  const auto at_phase = [&](double phase) -> const PhaseSlopes& {
+  std::map<MeshingPhase, std::unique_ptr<const PhaseSlopes>> phases;
+  const auto at_phase = [&](MeshingPhase phase) -> const PhaseSlopes& {
     auto& slopes = phases[phase];
     if (!slopes)
-      slopes = std::make_unique<const PhaseSlopes>(inputs, known_assembly(phase));
+      slopes = std::make_unique<const PhaseSlopes>(inputs, known_assembly(cup, phase));
     return *slopes;
   };
-  g.rim_strain = rim_strain_slopes(gear_, **curve_, g.parameters);
-  g.assembly_force_n = at_phase(0.0).assembly_force();
+  g.rim_strain = rim_strain_slopes(gear, curve, g.parameters);
+  g.assembly_force_n = at_phase(MeshingPhase{}).assembly_force();
   using units::degree;
-  if (const auto& assembled = result_.backlash->assembled)
+  if (const auto& assembled = result.backlash->assembled)
     g.min_backlash_um =
-        1e3 * at_phase(0.0).assembled_backlash(assembled->min_phi_deg * degree, assembled->min_z_mm);
+        1e3 *
+        at_phase(MeshingPhase{}).assembled_backlash(assembled->min_phi_deg * degree, assembled->min_z_mm);
   else
     g.min_backlash_um =
-        least_backlash_slopes(gear_, **curve_, g.parameters, result_.backlash->min_phi_deg * degree);
-  g.load.resize(result_.load.size());
+        least_backlash_slopes(gear, curve, g.parameters, result.backlash->min_phi_deg * degree);
+  g.load.resize(result.load.size());
   std::vector<PhaseLoadSlopes> known; // by solved load
-  FlankPressure flank_pressure(gear_);
-  for (const SolvedLoad& solved : solved_) {
+  FlankPressure flank_pressure(gear);
+  for (const SolvedLoad& solved : all_solved) {
     const PhaseSlopes& slopes = at_phase(solved.model_phase);
     const std::vector<LoadedPoint>& points = solved.model->points();
     // The rated torque is often a load of its own as well.
     const auto same =
-        std::find_if(solved_.begin(), solved_.begin() + static_cast<std::ptrdiff_t>(known.size()),
+        std::find_if(all_solved.begin(), all_solved.begin() + static_cast<std::ptrdiff_t>(known.size()),
                      [&](const SolvedLoad& other) {
                        return other.model == solved.model && other.control == solved.control &&
                               other.load.rotation_rad == solved.load.rotation_rad &&
                               other.load.force_n == solved.load.force_n &&
                               other.load.coast_force_n == solved.load.coast_force_n;
                      });
-    const auto at = static_cast<std::size_t>(same - solved_.begin());
+    const auto at = static_cast<std::size_t>(same - all_solved.begin());
     known.push_back(at < known.size()
                         ? known[at]
                         : slopes.of(solved.model->all_points(), PhaseModel::all_forces(solved.load),
@@ -191,7 +201,7 @@ ForwardGradient Analysis::gradient(std::span<const std::string> parameters) {
       break;
     case SolvedLoad::Use::load_case: {
       const auto [pressure, largest] =
-          peak_pressure(flank_pressure, result_.load[solved.load_case].peak_pressure.mpa, slopes, points,
+          peak_pressure(flank_pressure, result.load[solved.load_case].peak_pressure.mpa, slopes, points,
                         solved.load, of.force_n);
       g.load[solved.load_case].push_back({.force_n = by_tooth(points, of.force_n, solved.direction),
                                           .rotation_rad = of.rotation_rad,
@@ -206,16 +216,11 @@ ForwardGradient Analysis::gradient(std::span<const std::string> parameters) {
   return g;
 }
 
-ForwardGradient ForwardSolution::gradient(std::span<const std::string> parameters) const {
-  return analysis_->gradient(parameters);
-}
-
-ForwardResult ForwardModel::analyze(const Gear& gear, std::shared_ptr<const ForwardSolution>& solution) {
-  const auto analysis = std::make_shared<Analysis>(*state_, gear, Want::load);
-  analysis->keep_solution();
-  ForwardResult result = analysis->run();
-  solution = result.status == Status::ok ? std::make_shared<const ForwardSolution>(analysis) : nullptr;
-  return result;
+ForwardResult ForwardModel::analyze(const Gear& gear,
+                                    std::shared_ptr<const ForwardSolution>& solution) const {
+  const auto run = std::make_shared<const Run>(complete_run(stages_, gear, {.lean = true}));
+  solution = run->result.status == Status::ok ? std::make_shared<const ForwardSolution>(run) : nullptr;
+  return run->result;
 }
 
 } // namespace strainwave

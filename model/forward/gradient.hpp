@@ -22,17 +22,17 @@ namespace strainwave {
 /// Whether ForwardSolution::gradient() takes this path for this gear.
 bool has_exact_gradient(const Gear& gear, const std::string& path);
 
-class Analysis;
+struct Run; // run.hpp
 
-/// An analysis that has come to its end, with its contact states. The ForwardModel has to outlive it.
+/// An analysis that has come to its end, with its contact states.
 class ForwardSolution {
 public:
-  explicit ForwardSolution(std::shared_ptr<Analysis> analysis) : analysis_(std::move(analysis)) {}
-  /// Throws std::invalid_argument for a path without exact gradient. One thread at a time.
+  explicit ForwardSolution(std::shared_ptr<const Run> run) : run_(std::move(run)) {}
+  /// Throws std::invalid_argument for a path without exact gradient. Several threads may ask.
   ForwardGradient gradient(std::span<const std::string> parameters) const;
 
 private:
-  std::shared_ptr<Analysis> analysis_;
+  std::shared_ptr<const Run> run_;
 };
 
 } // namespace strainwave

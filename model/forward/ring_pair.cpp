@@ -1,8 +1,7 @@
 #include "strainwave/model/forward/ring_pair.hpp"
 
 #include "strainwave/common/core/units.hpp"
-#include "strainwave/model/flexspline/response_request.hpp"
-#include "strainwave/model/flexspline/response_store.hpp"
+#include "strainwave/model/forward/shared_stages.hpp"
 #include "strainwave/model/meshing/flank_points.hpp"
 #include "strainwave/model/meshing/gear_surface.hpp"
 #include "strainwave/model/tooth/backlash.hpp"
@@ -34,13 +33,16 @@ double own_lobe(double phi_rad) {
 }
 
 /// Poses of teeth: of the neutral curve, or of the assembled cup in the middle of the face.
-PoseSource pose_source(const NominalMesh& mesh, const RingCompliance& ring, const NeutralCurve& curve,
-                       const AssembledState& assembled, std::shared_ptr<AssembledPoses>& keep) {
-  if (mesh.gear.contact.gaps != GapModel::assembled)
-    return [&curve](int, double phi, int) { return curve.pose(phi); };
-  keep = std::make_shared<AssembledPoses>(ring, assembled, mesh.gear.flexspline.neutral_radius_mm, 0.0,
-                                          slice_places(*mesh.responses));
-  return [keep](int sector, double phi, int slice) { return keep->pose(sector, phi, slice); };
+PoseSource pose_source(const NominalMesh& mesh, const Ring& ring, const NeutralCurve& curve,
+                       const AssembledState& assembled) {
+  const bool as_assembled = mesh.gear.contact.gaps == GapModel::assembled;
+  return poses_of_teeth(curve, ring, as_assembled ? &assembled : nullptr,
+                        mesh.gear.flexspline.neutral_radius_mm, MeshingPhase{});
+}
+
+/// A part of a ring, which it keeps alive.
+std::shared_ptr<const RingCompliance> compliance_of(const std::shared_ptr<const Ring>& ring) {
+  return {ring, &ring->compliance};
 }
 
 std::vector<Pose> poses_of(const NominalMesh& mesh, const PoseSource& source) {
@@ -52,8 +54,9 @@ std::vector<Pose> poses_of(const NominalMesh& mesh, const PoseSource& source) {
 
 /// −d of assembly: what the unloaded wall forces do to the teeth's gaps.
 Eigen::VectorXd assembly_shift(const NominalMesh& mesh, const AssembledState& assembled) {
-  return mesh.half->tooth_displacement(tooth_functionals(*mesh.half, mesh.teeth), assembled.stations,
-                                       assembled.force_components());
+  const RingCompliance& ring = mesh.half->compliance;
+  return ring.tooth_displacement(tooth_functionals(ring, mesh.teeth), assembled.stations,
+                                 assembled.force_components());
 }
 
 Gear on_discs(const Gear& gear, double u0_mm, double eccentricity_mm) {
@@ -66,7 +69,7 @@ Gear on_discs(const Gear& gear, double u0_mm, double eccentricity_mm) {
 
 } // namespace
 
-Outcome<NominalMesh> nominal_mesh(ForwardModel& model, const Gear& gear, const ForwardOptions& options) {
+Outcome<NominalMesh> nominal_mesh(const ForwardModel& model, const Gear& gear) {
   if (gear.contact.flank_points > 1 || gear.contact.face_slices > 1) {
     return Failure{
         Status::not_available,
@@ -77,52 +80,47 @@ Outcome<NominalMesh> nominal_mesh(ForwardModel& model, const Gear& gear, const F
   ForwardResult analysis = model.analyze(gear, Want::compliance);
   if (analysis.status != Status::ok)
     return Failure{analysis.status, analysis.message};
-  auto curve = NeutralCurve::make(gear.wave_generator, gear.flexspline);
+  // the stages of the analysis, on the whole ring
+  SharedStages& stages = *model.stages();
+  const bool alike = gear.flexspline.teeth % 2 == 0;
+  const StageInput curve_in = curve_input(gear), whole_in = ring_input(gear, false);
+  const auto curve = stages.curve(curve_in).value;
   if (!curve)
     return curve.failure();
-  const ResponseStore store(options.disk_cache ? cache_folder() : std::filesystem::path());
-  auto stored = stored_unit_responses(response_request(gear), store, options.threads);
-  if (!stored)
-    return stored.failure();
-  auto responses = std::make_shared<const UnitResponses>(std::move(stored).value().responses);
-  auto ring = std::make_shared<const RingCompliance>(*responses, contact_rows(gear), false);
+  const auto responses = stages.responses(response_input(gear), analysis.warnings).value;
+  if (!responses)
+    return responses.failure();
+  const auto whole = stages.ring(whole_in, *responses, false);
+  const auto half = alike ? stages.ring(ring_input(gear, true), *responses, true) : whole;
   const double shift = analysis.assembly->disc_shift_mm;
+  const auto assembled = stages
+                             .assembly(assembly_input(gear, curve_in, whole_in), whole->compliance, **curve,
+                                       shift, MeshingPhase{})
+                             .value;
+  if (!assembled)
+    return assembled.failure();
   NominalMesh mesh{.gear = gear,
                    .analysis = std::move(analysis),
-                   .curve = *curve,
-                   .responses = responses,
-                   .ring = ring,
-                   .half = gear.flexspline.teeth % 2 == 0
-                               ? std::make_shared<const RingCompliance>(*responses, contact_rows(gear), true)
-                               : ring,
-                   .surface = surface_of(gear, *curve, shift),
-                   .assembled = {},
+                   .curve = **curve,
+                   .ring = compliance_of(whole),
+                   .half = half,
+                   .surface = surface_of(gear, **curve, shift),
+                   .assembled = **assembled,
                    .teeth = {},
                    .pose = {},
                    .disc_shift_mm = shift};
-  if (gear.wave_generator.shape == WaveGeneratorShape::four_force) {
-    const double angle = *gear.wave_generator.force_angle_deg * pi / 180.0;
-    mesh.assembled = hold_at_lines(*ring, angle, mesh.curve.displacement(angle).u_mm, 0.0);
-  } else {
-    ContactSolver solver;
-    auto assembled = assemble(*ring, mesh.surface, 0.0, solver);
-    if (!assembled)
-      return assembled.failure();
-    mesh.assembled = std::move(assembled).value();
-  }
 
   auto table = backlash(gear, mesh.curve, 0.0);
   if (!table)
     return table.failure();
   Backlash ring_table = std::move(table).value();
-  if (gear.flexspline.teeth % 2 == 0)
+  if (alike)
     add_second_lobe(ring_table, gear.flexspline.teeth);
   auto pair = FlankPair::make(gear);
   if (!pair)
     return pair.failure();
-  std::shared_ptr<AssembledPoses> keep;
-  const PoseSource source = pose_source(mesh, *mesh.ring, mesh.curve, mesh.assembled, keep);
-  mesh.teeth = flank_points(gear, *responses, ring_table, {*pair}, source);
+  const PoseSource source = pose_source(mesh, *whole, mesh.curve, mesh.assembled);
+  mesh.teeth = flank_points(gear, **responses, ring_table, {*pair}, source);
   if (gear.contact.lobes == 1)
     std::erase_if(mesh.teeth, [](const LoadedPoint& p) { return p.phi_rad > 0.5 * pi + 1e-12; });
   if (mesh.teeth.empty())
@@ -176,21 +174,19 @@ Outcome<LoadTangent> nominal_load(const NominalMesh& mesh, double value, Control
 
 Outcome<MeshAtDiscs> mesh_at_discs(const NominalMesh& mesh, double u0_mm, double eccentricity_mm) {
   const Gear gear = on_discs(mesh.gear, u0_mm, eccentricity_mm);
-  auto curve = NeutralCurve::make(gear.wave_generator, gear.flexspline);
+  auto curve = neutral_curve(curve_input(gear));
   if (!curve)
     return curve.failure();
   MeshAtDiscs result;
   const bool loose = gear.contact.fidelity != Fidelity::linear;
   AssembledState assembled;
   if (loose || gear.contact.gaps == GapModel::assembled) {
-    ContactSolver solver;
-    auto solved = assemble(*mesh.half, surface_of(gear, *curve, mesh.disc_shift_mm), 0.0, solver);
+    auto solved = assembled_cup(gear, mesh.half->compliance, *curve, mesh.disc_shift_mm, MeshingPhase{});
     if (!solved)
       return solved.failure();
     assembled = std::move(solved).value();
   }
-  std::shared_ptr<AssembledPoses> keep;
-  result.pose = poses_of(mesh, pose_source(mesh, *mesh.half, *curve, assembled, keep));
+  result.pose = poses_of(mesh, pose_source(mesh, *mesh.half, *curve, assembled));
   result.tooth_shift_mm.assign(mesh.teeth.size(), 0.0);
   if (loose) {
     const Eigen::VectorXd shift = assembly_shift(mesh, assembled);

@@ -12,6 +12,7 @@
 
 #include "strainwave/model/contact/load_tangent.hpp"
 #include "strainwave/model/forward/forward.hpp"
+#include "strainwave/model/forward/stages.hpp"
 #include "strainwave/model/kinematics/neutral_curve.hpp"
 
 #include <memory>
@@ -23,10 +24,8 @@ struct NominalMesh {
   Gear gear;
   ForwardResult analysis; ///< of the gear up to its compliance: warnings, certificate
   NeutralCurve curve;
-  std::shared_ptr<const UnitResponses> responses;
   std::shared_ptr<const RingCompliance> ring; ///< unfolded
-  std::shared_ptr<const RingCompliance>
-      half; ///< folded where both lobes are alike, for assembly; else the same
+  std::shared_ptr<const Ring> half; ///< folded where both lobes are alike, for assembly; else the same
   WaveGeneratorSurface surface;
   AssembledState assembled;
   std::vector<LoadedPoint> teeth; ///< ascending φ
@@ -36,8 +35,9 @@ struct NominalMesh {
   bool two_discs() const { return curve.summary().disc_radius_mm.has_value(); }
 };
 
-/// Failures: those of the forward model, not_available for more than one contact point per tooth.
-Outcome<NominalMesh> nominal_mesh(ForwardModel& model, const Gear& gear, const ForwardOptions& options = {});
+/// From the stages of the model's analysis: no finite elements are solved for it again. Failures: those of
+/// the forward model, not_available for more than one contact point per tooth.
+Outcome<NominalMesh> nominal_mesh(const ForwardModel& model, const Gear& gear);
 
 /// Contact of the mesh about its solution at this torque (> 0, all lobes, N·m) or rotation (rad). Fidelity
 /// linear: teeth alone.

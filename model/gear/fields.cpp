@@ -119,9 +119,10 @@ struct Bits {
   }
 };
 
-bool lies_in(std::string_view table, std::span<const std::string_view> tables) {
-  return std::any_of(tables.begin(), tables.end(), [&](std::string_view one) {
-    return table == one || (table.starts_with(one) && table.size() > one.size() && table[one.size()] == '.');
+/// Whether a path is one of these or lies in a table of these.
+bool lies_in(std::string_view path, std::span<const std::string_view> parts) {
+  return std::any_of(parts.begin(), parts.end(), [&](std::string_view one) {
+    return path == one || (path.starts_with(one) && path.size() > one.size() && path[one.size()] == '.');
   });
 }
 
@@ -322,10 +323,10 @@ void NumberPath::set(Gear& gear, double number) const {
   field_->write(gear, value);
 }
 
-std::string canonical_bits(const Gear& gear, std::span<const std::string_view> tables) {
+std::string canonical_bits(const Gear& gear, std::span<const std::string_view> parts) {
   Bits bits;
   for (const Field& field : gear_fields()) {
-    if (field.path == "name" || (!tables.empty() && !lies_in(field.table(), tables)))
+    if (field.path == "name" || (!parts.empty() && !lies_in(field.path, parts)))
       continue;
     const FieldValue value = field.read(gear);
     bits.add(field.path);
@@ -333,6 +334,14 @@ std::string canonical_bits(const Gear& gear, std::span<const std::string_view> t
     std::visit(bits, value);
   }
   return std::move(bits.bytes);
+}
+
+Gear part_of(const Gear& gear, std::span<const std::string_view> parts) {
+  Gear part;
+  for (const Field& field : gear_fields())
+    if (lies_in(field.path, parts))
+      field.write(part, field.read(gear));
+  return part;
 }
 
 } // namespace strainwave

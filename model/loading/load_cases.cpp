@@ -34,7 +34,7 @@ struct Side {
 
 /// Drive or coast points of a load; `mirrored`: as seen in the coast direction.
 Side side_of(const std::vector<LoadedPoint>& points, const std::vector<double>& force_n,
-             const std::vector<double>& gap_um, bool mirrored, double phase, FlankPressure& pressure) {
+             const std::vector<double>& gap_um, bool mirrored, MeshingPhase phase, FlankPressure& pressure) {
   Side side;
   const std::size_t n = points.size();
   const std::vector<LineContact> contacts = pressure.of(points, force_n);
@@ -58,7 +58,7 @@ Side side_of(const std::vector<LoadedPoint>& points, const std::vector<double>& 
                               .phi_deg = side.phi_deg.back(),
                               .flank_radius_mm = point.flank_radius_mm,
                               .z_mm = point.z_mm,
-                              .phase = phase,
+                              .phase = phase.value(),
                               .edge = point.edge};
       if (!point.edge)
         side.peak_flank_pressure = peak;
@@ -84,7 +84,7 @@ bool carries(const std::vector<double>& force_n) {
   return std::any_of(force_n.begin(), force_n.end(), [](double force) { return force > 0.0; });
 }
 
-LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction direction, double phase,
+LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction direction, MeshingPhase phase,
                    FlankPressure& pressure) {
   LoadResult result;
   result.direction = direction;
@@ -94,7 +94,7 @@ LoadResult present(const PhaseModel& model, const PhaseLoad& load, Direction dir
   result.disc_force_n = load.disc_force_n;
   result.gap_correction_rotation_rad = load.gap_correction_rotation_rad;
   result.gap_correction_force_n = load.gap_correction_force_n;
-  result.peak_phase = phase;
+  result.peak_phase = phase.value();
   const bool mirrored = direction == Direction::coast;
   Side drive = side_of(model.points(), load.force_n, load.gap_um, mirrored, phase, pressure);
   result.tooth = std::move(drive.tooth);
@@ -178,10 +178,8 @@ private:
     double least_rotation = std::numeric_limits<double>::infinity();
     double most_rotation = -least_rotation;
     for (int j = 0; j < gear_.load.phases; ++j) {
-      const double phase = static_cast<double>(j) / gear_.load.phases;
-      // the drive-side phase that mirrors it, to the same bits as phase n − j
-      const int mirrored = direction == Direction::coast && j > 0 ? gear_.load.phases - j : j;
-      const double drive_phase = static_cast<double>(mirrored) / gear_.load.phases;
+      const MeshingPhase phase{j, gear_.load.phases};
+      const MeshingPhase drive_phase = direction == Direction::coast ? phase.mirrored() : phase;
       const auto model = source_(drive_phase);
       if (!model)
         return model.failure();
@@ -190,16 +188,15 @@ private:
       const auto load = solve(**model, asked);
       if (!load)
         return load.failure();
-      if (mirrored == 0 && asked.torque && asked.value == gear_.load.rated_torque_nm)
+      if (drive_phase.at_zero() && asked.torque && asked.value == gear_.load.rated_torque_nm)
         at_rated_ = *load;
       if (observer_)
-        observer_({SolvedLoad::Use::load_case, result_.load.size(), direction,
-                   static_cast<double>(mirrored) / gear_.load.phases,
+        observer_({SolvedLoad::Use::load_case, result_.load.size(), direction, drive_phase,
                    asked.torque ? Control::torque : Control::rotation, *model, *load});
       least_rotation = std::min(least_rotation, load->rotation_rad);
       most_rotation = std::max(most_rotation, load->rotation_rad);
       LoadResult presented = present(**model, *load, direction, phase, pressure_);
-      phases.push_back({phase, presented.rotation_rad, presented.tooth, presented.force_n});
+      phases.push_back({phase.value(), presented.rotation_rad, presented.tooth, presented.force_n});
       if (presented.peak_pressure.mpa > peak_pressure.mpa)
         peak_pressure = presented.peak_pressure;
       if (presented.peak_flank_pressure.mpa > peak_flank_pressure.mpa)
@@ -223,7 +220,7 @@ private:
 
   /// A phase at rest, once: whether flanks overlap at every rotation is plain from the gaps, how hard from a
   /// solution.
-  std::optional<Failure> rest(const PhaseModel& model, double phase) {
+  std::optional<Failure> rest(const PhaseModel& model, MeshingPhase phase) {
     if (!rested_.insert(phase).second)
       return std::nullopt;
     const double overlap = model.overlap_rad();
@@ -232,7 +229,7 @@ private:
     const auto load = solve(model, {true, 0.0});
     if (!load)
       return load.failure();
-    WedgeResult wedge{.phase = phase,
+    WedgeResult wedge{.phase = phase.value(),
                       .rotation_rad = load->rotation_rad,
                       .overlap_um = 1e3 * overlap * gear_.flexspline.tip_radius_mm};
     const auto add = [&](const std::vector<LoadedPoint>& points, const std::vector<double>& force_n,
@@ -288,10 +285,10 @@ private:
     const double rated = gear_.load.rated_torque_nm;
     if (!(rated > 0.0))
       return std::nullopt;
-    const auto model = source_(0.0);
+    const auto model = source_(MeshingPhase{});
     if (!model)
       return model.failure();
-    if (auto failure = rest(**model, 0.0))
+    if (auto failure = rest(**model, MeshingPhase{}))
       return failure;
     const auto at_rated = at_rated_ ? Outcome<PhaseLoad>(*at_rated_) : solve(**model, {true, rated});
     if (!at_rated)
@@ -300,8 +297,10 @@ private:
     if (!at_small)
       return at_small.failure();
     if (observer_) {
-      observer_({SolvedLoad::Use::rated, 0, Direction::drive, 0.0, Control::torque, *model, *at_rated});
-      observer_({SolvedLoad::Use::small, 0, Direction::drive, 0.0, Control::torque, *model, *at_small});
+      observer_(
+          {SolvedLoad::Use::rated, 0, Direction::drive, MeshingPhase{}, Control::torque, *model, *at_rated});
+      observer_(
+          {SolvedLoad::Use::small, 0, Direction::drive, MeshingPhase{}, Control::torque, *model, *at_small});
     }
     StiffnessResult s;
     s.take_up_rad = (*model)->take_up_rad();
@@ -351,13 +350,13 @@ private:
   std::optional<PhaseLoad> at_rated_; ///< phase 0 at the rated torque, once a load case has been that
   ContactSolver solver_;
   FlankPressure pressure_;
-  std::set<double> rested_; ///< drive-side phases whose rest is known
+  std::set<MeshingPhase> rested_; ///< drive-side phases whose rest is known
 };
 
 } // namespace
 
-int mirrored_tooth(int tooth, double phase) {
-  return phase == 0.0 ? -tooth : -1 - tooth;
+int mirrored_tooth(int tooth, MeshingPhase phase) {
+  return phase.at_zero() ? -tooth : -1 - tooth;
 }
 
 std::optional<Failure> solve_load_cases(const Gear& gear, const PhaseSource& phase_source,

@@ -6,6 +6,7 @@
 // −1 − i for tooth i (s = 0: phase 0 and tooth −i), so only drive problems are ever solved.
 
 #include "strainwave/model/loading/phase_model.hpp"
+#include "strainwave/model/meshing/meshing_phase.hpp"
 #include "strainwave/model/results/result.hpp"
 
 #include <functional>
@@ -13,10 +14,10 @@
 namespace strainwave {
 
 /// Tooth whose mirror image φ → −φ a tooth is; phase: of either side.
-int mirrored_tooth(int tooth, double phase);
+int mirrored_tooth(int tooth, MeshingPhase phase);
 
-/// The drive problem at meshing phase s ∈ [0, 1); made on demand and kept for the analysis.
-using PhaseSource = std::function<Outcome<std::shared_ptr<const PhaseModel>>(double phase)>;
+/// The drive problem at a meshing phase; made on demand and kept for the analysis.
+using PhaseSource = std::function<Outcome<std::shared_ptr<const PhaseModel>>(MeshingPhase phase)>;
 
 /// One load as it has been solved, for those who want more of it than the result holds.
 struct SolvedLoad {
@@ -24,7 +25,7 @@ struct SolvedLoad {
   Use use = Use::load_case;
   std::size_t load_case = 0; ///< its place in ForwardResult::load
   Direction direction = Direction::drive;
-  double model_phase = 0.0; ///< that PhaseSource was asked for
+  MeshingPhase model_phase; ///< that PhaseSource was asked for
   Control control = Control::torque;
   std::shared_ptr<const PhaseModel> model;
   PhaseLoad load;

@@ -16,6 +16,7 @@
 
 #include "strainwave/model/contact/load_problem.hpp"
 #include "strainwave/model/gear/gear.hpp"
+#include "strainwave/model/meshing/meshing_phase.hpp"
 
 #include <map>
 #include <memory>
@@ -41,7 +42,7 @@ ContactStart merged(const ContactStart& first, const ContactStart& second);
 
 /// Starts by drive-side meshing phase.
 struct LoadStarts {
-  std::map<double, ContactStart> by_phase;
+  std::map<MeshingPhase, ContactStart> by_phase;
 };
 
 /// One load at one phase. Arrays run over PhaseModel::points(), those with coast_ over

@@ -140,8 +140,8 @@ std::vector<std::vector<double>> corners(const DesignSpace& design, const std::v
 
 } // namespace
 
-Outcome<LeastClearance> least_clearance(ForwardModel& model, const Gear& base, const DesignSpace& design,
-                                        double at_least_mm) {
+Outcome<LeastClearance> least_clearance(const ForwardModel& model, const Gear& base,
+                                        const DesignSpace& design, double at_least_mm) {
   std::vector<double> middle;
   for (const DesignVariable& variable : design.variables())
     middle.push_back(is_removal(variable) ? variable.lower : 0.5 * (variable.lower + variable.upper));
@@ -172,7 +172,7 @@ Outcome<LeastClearance> least_clearance(ForwardModel& model, const Gear& base, c
   return least;
 }
 
-Outcome<std::optional<GearBound>> gear_force_bound(ForwardModel& model, const Gear& gear,
+Outcome<std::optional<GearBound>> gear_force_bound(const ForwardModel& model, const Gear& gear,
                                                    const LeastClearance& clearance, double torque_nm,
                                                    double rotation_rad) {
   const auto phases = model.phase_problems(gear);

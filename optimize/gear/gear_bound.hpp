@@ -51,12 +51,12 @@ struct LeastClearance {
 
 /// `at_least_mm`: what the study demands of every design (−infinity: nothing). Fails where no corner has a
 /// result.
-Outcome<LeastClearance> least_clearance(ForwardModel& model, const Gear& base, const DesignSpace& design,
-                                        double at_least_mm);
+Outcome<LeastClearance> least_clearance(const ForwardModel& model, const Gear& base,
+                                        const DesignSpace& design, double at_least_mm);
 
 /// `gear` is the design whose compliance counts; its [load] names the phases. Nothing in the optional: no set
 /// of teeth carries the torque within the rotation.
-Outcome<std::optional<GearBound>> gear_force_bound(ForwardModel& model, const Gear& gear,
+Outcome<std::optional<GearBound>> gear_force_bound(const ForwardModel& model, const Gear& gear,
                                                    const LeastClearance& clearance, double torque_nm,
                                                    double rotation_rad);
 

@@ -1,6 +1,6 @@
 #include "strainwave/optimize/gear/gear_evaluator.hpp"
 
-#include "strainwave/common/threads/stage_memory.hpp"
+#include "strainwave/common/threads/content_key.hpp"
 #include "strainwave/model/results/response_gradient.hpp"
 
 #include <algorithm>
@@ -61,9 +61,10 @@ std::vector<double> tooth_force_gradient(const Gear& gear, const std::vector<For
 
 } // namespace
 
-GearEvaluator::GearEvaluator(Gear base, DesignSpace design, std::vector<Load> loads, ForwardOptions options,
+GearEvaluator::GearEvaluator(Gear base, DesignSpace design, std::vector<Load> loads,
+                             std::shared_ptr<const ForwardModel> model,
                              std::function<void(const std::string&)> warn)
-    : base_(std::move(base)), design_(std::move(design)), loads_(std::move(loads)), options_(options),
+    : base_(std::move(base)), design_(std::move(design)), loads_(std::move(loads)), model_(std::move(model)),
       warn_(std::move(warn)) {
   for (const DesignVariable& variable : design_.variables()) {
     std::vector<std::string> paths = {variable.path.path()};
@@ -78,19 +79,10 @@ GearEvaluator::GearEvaluator(Gear base, DesignSpace design, std::vector<Load> lo
   }
 }
 
-std::unique_ptr<ForwardModel> GearEvaluator::borrow() {
-  const std::lock_guard lock(mutex_);
-  if (idle_.empty())
-    return std::make_unique<ForwardModel>(options_);
-  auto model = std::move(idle_.back());
-  idle_.pop_back();
-  return model;
-}
-
-void GearEvaluator::give_back(std::unique_ptr<ForwardModel> model) {
-  const std::lock_guard lock(mutex_);
-  idle_.push_back(std::move(model));
-}
+GearEvaluator::GearEvaluator(Gear base, DesignSpace design, std::vector<Load> loads, ForwardOptions options,
+                             std::function<void(const std::string&)> warn)
+    : GearEvaluator(std::move(base), std::move(design), std::move(loads),
+                    std::make_shared<const ForwardModel>(options), std::move(warn)) {}
 
 std::optional<std::size_t> GearEvaluator::pieces_of() const {
   return find_response(gear_responses(), "peak_force_n");
@@ -125,23 +117,20 @@ std::shared_ptr<GearEvaluator::Point> GearEvaluator::point(std::span<const doubl
 }
 
 std::shared_ptr<GearEvaluator::Point> GearEvaluator::solve(Gear gear) {
-  auto model = borrow();
   auto point = std::make_shared<Point>();
   for (const Load& load : loads_) {
     gear.load = load;
     point->solutions.emplace_back();
-    point->results.push_back(model->analyze(gear, point->solutions.back()));
+    point->results.push_back(model_->analyze(gear, point->solutions.back()));
     const ForwardResult& result = point->results.back();
     if (warn_)
       std::for_each(result.warnings.begin(), result.warnings.end(), warn_);
     if (result.status == Status::ok)
       continue;
-    give_back(std::move(model));
     point->solutions.clear();
     point->evaluation = failed(std::string(status_name(result.status)), result.message);
     return point;
   }
-  give_back(std::move(model));
   Evaluation& evaluation = point->evaluation;
   evaluation.ok = true;
   evaluation.status = "ok";

@@ -2,9 +2,8 @@
 // The evaluator of real gears: a design put into a base gear, analysed by the forward model under a list of
 // loads.
 //
-// A forward model lets only one thread at a time into a stage, so every thread that evaluates borrows a model
-// of its own. What a model remembers is unit responses and assemblies by content; it changes the time, never
-// the numbers.
+// All threads, and whoever else works on the same gears (bounds, variants, other evaluators), share one
+// forward model: a cup is solved once. What it remembers changes the time, never the numbers.
 //
 // Gradients are exact (model/forward/gradient.hpp) for variables whose keys, linked ones included, act
 // through flanks, poses and assembly. A variable that changes the finite elements or the discs' width is
@@ -30,6 +29,9 @@ class GearEvaluator : public Evaluator {
 public:
   /// Each of `loads` replaces the load of `base`; rated torque included. `warn` hears sentences for people (a
   /// damaged cache file), from any thread.
+  GearEvaluator(Gear base, DesignSpace design, std::vector<Load> loads,
+                std::shared_ptr<const ForwardModel> model, std::function<void(const std::string&)> warn = {});
+  /// With a model of its own.
   GearEvaluator(Gear base, DesignSpace design, std::vector<Load> loads, ForwardOptions options = {},
                 std::function<void(const std::string&)> warn = {});
 
@@ -66,19 +68,16 @@ private:
   void differentiate(Point& point, std::span<const double> x);
   /// Variable i by differences of whole evaluations.
   void difference(Point& point, std::span<const double> x, std::size_t i);
-  std::unique_ptr<ForwardModel> borrow();
-  void give_back(std::unique_ptr<ForwardModel> model);
 
   Gear base_;
   DesignSpace design_;
   std::vector<Load> loads_;
-  ForwardOptions options_;
+  std::shared_ptr<const ForwardModel> model_;
   std::function<void(const std::string&)> warn_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<ForwardModel>> idle_;
   std::vector<bool> exact_;
   std::vector<std::string> paths_;           ///< of the exact variables and what is linked to them, each once
-  std::list<std::shared_ptr<Point>> recent_; ///< the latest first; after idle_, whose models they refer to
+  std::list<std::shared_ptr<Point>> recent_; ///< the latest first
 };
 
 } // namespace strainwave

@@ -1,6 +1,6 @@
 #include "strainwave/optimize/problem/evaluation_store.hpp"
 
-#include "strainwave/common/threads/stage_memory.hpp"
+#include "strainwave/common/threads/content_key.hpp"
 
 #include <chrono>
 

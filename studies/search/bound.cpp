@@ -47,7 +47,7 @@ bool is_bounded(const StudyFile& study, const std::vector<Load>& loads) {
 } // namespace
 
 void report_bound(OptimisationReport& report, const DesignSpace& design, const std::vector<Load>& loads,
-                  const ForwardOptions& options) {
+                  const ForwardModel& model) {
   if (!report.best_gear || !is_bounded(report.study, loads))
     return;
   const Demands demanded = demands(report);
@@ -55,7 +55,6 @@ void report_bound(OptimisationReport& report, const DesignSpace& design, const s
   for (const Load& load : loads)
     for (const double torque : load.torque_nm)
       largest_torque = std::max(largest_torque, torque);
-  ForwardModel model(options);
   for (const Load& load : loads) {
     Gear base = report.study.gear;
     Gear best = *report.best_gear;

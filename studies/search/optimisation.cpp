@@ -170,7 +170,8 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
   const auto begin = std::chrono::steady_clock::now();
   const DesignSpace design = study_design(study);
   const std::vector<Load> loads = study_loads(study);
-  const ForwardOptions forward{.disk_cache = options.disk_cache, .threads = options.threads};
+  const ForwardOptions forward_options{.disk_cache = options.disk_cache, .threads = options.threads};
+  const auto forward = std::make_shared<const ForwardModel>(forward_options);
   GearEvaluator model(study.gear, design, loads, forward, options.warn);
   OptimisationReport report;
   report.study = study;
@@ -191,7 +192,7 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
   // At least one new evaluation in every run: else runs shorter than the baseline would never come to an end.
   const auto stop = [&] { return options.stop && options.stop() && store.counts().done > 0; };
   Monitor monitor(static_cast<std::size_t>(study.method.budget), stop, options.progress);
-  GearEvaluator fresh(study.gear, design, loads, forward);
+  GearEvaluator fresh(study.gear, design, loads, forward_options); // shares nothing with the search
   const OptimiseSettings settings{.search = {.method = report.method,
                                              .budget = static_cast<std::size_t>(study.method.budget),
                                              .tolerance = study.method.tolerance,
@@ -206,11 +207,9 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
     report_front(report, design, front);
   } else {
     report_best(report, design, optimise(problem, settings, fresh, monitor).judgement);
-    report_bound(report, design, loads, forward);
-    if (report.best_gear && !(options.stop && options.stop())) {
-      ForwardModel other_models(forward);
-      report.variants = optimum_variants(report.study.gear, *report.best_gear, loads, other_models);
-    }
+    report_bound(report, design, loads, *forward);
+    if (report.best_gear && !(options.stop && options.stop()))
+      report.variants = optimum_variants(report.study.gear, *report.best_gear, loads, *forward);
   }
   if (journal)
     journal->sync();

@@ -33,7 +33,7 @@ std::vector<Change> changes(const Gear& gear) {
 
 /// The responses under all loads, or the reason why there are none.
 Evaluation analyse(const Gear& gear, const std::vector<Load>& loads, const Change& change,
-                   ForwardModel& model) {
+                   const ForwardModel& model) {
   Evaluation evaluation;
   std::vector<ForwardResult> results;
   for (const Load& load : loads) {
@@ -56,7 +56,7 @@ Evaluation analyse(const Gear& gear, const std::vector<Load>& loads, const Chang
 } // namespace
 
 std::vector<ModelVariant> optimum_variants(const Gear& baseline, const Gear& best,
-                                           const std::vector<Load>& loads, ForwardModel& model) {
+                                           const std::vector<Load>& loads, const ForwardModel& model) {
   std::vector<ModelVariant> variants;
   for (const Change& change : changes(best))
     variants.push_back({std::string(change.name), analyse(baseline, loads, change, model),

@@ -12,6 +12,6 @@ namespace strainwave {
 
 /// One entry for each change; numbers are absent where the gear has no result then.
 std::vector<ModelVariant> optimum_variants(const Gear& baseline, const Gear& best,
-                                           const std::vector<Load>& loads, ForwardModel& model);
+                                           const std::vector<Load>& loads, const ForwardModel& model);
 
 } // namespace strainwave

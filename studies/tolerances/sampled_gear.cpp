@@ -61,9 +61,8 @@ Outcome<std::shared_ptr<const SampledGear>> SampledGear::make(const StudyFile& s
                                                               int positions, const RowOptions& options) {
   refuse_loads(study);
   SampledSources sources(study);
-  const ForwardOptions forward{.disk_cache = options.disk_cache, .threads = options.threads};
-  ForwardModel model(forward);
-  auto mesh = nominal_mesh(model, study.gear, forward);
+  const ForwardModel model({.disk_cache = options.disk_cache, .threads = options.threads});
+  auto mesh = nominal_mesh(model, study.gear);
   if (!mesh)
     return mesh.failure();
   if (options.warn)

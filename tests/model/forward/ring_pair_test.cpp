@@ -16,7 +16,7 @@ namespace {
 
 const NominalMesh& seed_mesh() {
   static const NominalMesh mesh =
-      nominal_mesh(testing_support::shared_model(), seed_gear(), {.disk_cache = false}).value();
+      nominal_mesh(testing_support::shared_model(), seed_gear()).value();
   return mesh;
 }
 

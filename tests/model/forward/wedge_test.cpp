@@ -40,16 +40,17 @@ const UnitResponses& cup_of(const Gear& gear) {
 
 /// All that a PhaseModel is made of, kept together.
 struct Pair {
-  Pair(const Gear& given, double at_phase)
+  Pair(const Gear& given, MeshingPhase at_phase)
       : gear(given), responses(cup_of(gear)), ring(responses, contact_rows(gear), true),
         curve(NeutralCurve::make(gear.wave_generator, gear.flexspline).value()),
         discs(surface_of(gear, curve)) {
     ContactSolver solver;
-    assembled = std::make_shared<const AssembledState>(assemble(ring, discs, at_phase, solver).value());
+    assembled =
+        std::make_shared<const AssembledState>(assemble(ring, discs, at_phase.value(), solver).value());
     for (const double z : slice_places(responses))
       flanks.push_back(FlankPair::make(gear, face_coordinate(gear.flexspline, z)).value());
     drive = points_at(at_phase);
-    coast = points_at(at_phase == 0.0 ? 0.0 : 1.0 - at_phase);
+    coast = points_at(at_phase.mirrored());
     for (LoadedPoint& point : coast) {
       point.tooth = mirrored_tooth(point.tooth, at_phase);
       point.phi_rad = -point.phi_rad;
@@ -59,8 +60,8 @@ struct Pair {
     all = drive;
     all.insert(all.end(), coast.begin(), coast.end());
   }
-  std::vector<LoadedPoint> points_at(double phase) const {
-    return flank_points(gear, responses, backlash(gear, curve, phase).value(), flanks,
+  std::vector<LoadedPoint> points_at(MeshingPhase phase) const {
+    return flank_points(gear, responses, backlash(gear, curve, phase.value()).value(), flanks,
                         [&](int, double phi, int) { return curve.pose(phi); });
   }
   PhaseModel model() const { return {gear.contact, ring, discs, assembled, drive, coast}; }
@@ -86,7 +87,7 @@ TEST(Wedge, TurningBackIsTheMirrorImageOfTurningForwards) {
   // No symmetry of the finite elements is used anywhere: the coast flank has its own hats. What a rotation of
   // −θ does on the coast flanks must be what θ does on the drive flanks.
   for (const ForceDirection direction : {ForceDirection::circumferential, ForceDirection::flank_normal}) {
-    const Pair pair(seed_with(2.19, direction), 0.0);
+    const Pair pair(seed_with(2.19, direction), MeshingPhase{});
     const PhaseModel model = pair.model();
     ContactSolver solver;
     const PhaseLoad forwards = model.at_rotation(2.5e-3, solver).value();
@@ -103,7 +104,7 @@ TEST(Wedge, TurningBackIsTheMirrorImageOfTurningForwards) {
 }
 
 TEST(Wedge, AForceOnTheCoastFlankTurnsTheToothForwards) {
-  const Pair pair(seed_with(2.19), 0.0);
+  const Pair pair(seed_with(2.19), MeshingPhase{});
   const LoadedPoint& drive = pair.drive[pair.drive.size() / 2];
   const LoadedPoint* same = nullptr;
   for (const LoadedPoint& point : pair.coast)
@@ -125,7 +126,7 @@ TEST(Wedge, AForceOnTheCoastFlankTurnsTheToothForwards) {
 }
 
 TEST(Wedge, AtRestOnAMirrorPhaseTheForcesAreMirrorImages) {
-  const Pair pair(seed_with(2.08), 0.0);
+  const Pair pair(seed_with(2.08), MeshingPhase{});
   const PhaseModel model = pair.model();
   EXPECT_GT(model.overlap_rad(), 0.0);
   ContactSolver solver;
@@ -141,8 +142,8 @@ TEST(Wedge, AtRestOnAMirrorPhaseTheForcesAreMirrorImages) {
 TEST(Wedge, PhasesThatMirrorEachOtherRestAtOppositeRotations) {
   const Gear gear = seed_with(2.08);
   ContactSolver solver;
-  const PhaseLoad early = Pair(gear, 0.25).model().at_torque(0.0, solver).value();
-  const PhaseLoad late = Pair(gear, 0.75).model().at_torque(0.0, solver).value();
+  const PhaseLoad early = Pair(gear, MeshingPhase{1, 4}).model().at_torque(0.0, solver).value();
+  const PhaseLoad late = Pair(gear, MeshingPhase{3, 4}).model().at_torque(0.0, solver).value();
   EXPECT_GT(std::abs(early.rotation_rad), 1e-7);
   EXPECT_NEAR(early.rotation_rad, -late.rotation_rad, 1e-11);
   EXPECT_NEAR(sum(early.force_n), sum(late.coast_force_n), 1e-6);
@@ -168,7 +169,7 @@ TEST(Wedge, RestEqualsProjectedGaussSeidelWithABisectedRotation) {
   Gear gear = seed_with(2.08);
   gear.contact.fidelity = Fidelity::linear;
   gear.contact.window_deg = {-21.0, 51.0};
-  const Pair pair(gear, 0.25);
+  const Pair pair(gear, MeshingPhase{1, 4});
   ContactSolver solver;
   const PhaseLoad rest = pair.model().at_torque(0.0, solver).value();
 
@@ -197,7 +198,7 @@ TEST(Wedge, OnePairOfFlanksIsAClosedFormAndLinearInTheOverlap) {
   double least_force = 0.0;
   for (const double profile_shift : {2.1375, 2.135}) {
     gear.circular_spline.profile_shift = profile_shift;
-    const Pair pair(gear, 0.0);
+    const Pair pair(gear, MeshingPhase{});
     ContactSolver solver;
     const PhaseLoad rest = pair.model().at_torque(0.0, solver).value();
     const std::size_t i = static_cast<std::size_t>(
@@ -224,7 +225,7 @@ TEST(Wedge, SelectionGivesTheSolutionOfAllPointsOfBothFlanks) {
   gear.contact.flank_points = 5;
   gear.contact.face_slices = 3;
   gear.contact.window_deg = {-21.0, 51.0};
-  const Pair pair(gear, 0.25);
+  const Pair pair(gear, MeshingPhase{1, 4});
   const PhaseModel model = pair.model();
   const LoadProblem all = unilateral_problem(pair.ring, *pair.assembled, pair.all);
   ContactSolver solver;
@@ -249,7 +250,7 @@ TEST(Wedge, AStartChangesNoResult) {
   Gear gear = seed_with(2.14);
   gear.contact.flank_points = 5;
   gear.contact.face_slices = 3;
-  const Pair pair(gear, 0.0);
+  const Pair pair(gear, MeshingPhase{});
   const PhaseModel cold = pair.model();
   ContactSolver solver;
   const ContactStart nominal = cold.at_torque(7.0, solver)->start;

@@ -1,5 +1,7 @@
 // The evaluator of real gears, on a coarse cup that is solved in a moment.
 
+#include "strainwave/common/threads/parallel.hpp"
+#include "strainwave/model/flexspline/responses.hpp"
 #include "strainwave/optimize/gear/gear_evaluator.hpp"
 #include "tests/support/coarse_seed.hpp"
 
@@ -44,6 +46,23 @@ TEST(GearEvaluator, GivesWhatTheForwardModelGives) {
   EXPECT_EQ(value(e, "min_backlash_um"), direct.backlash->min_um);
   EXPECT_TRUE(std::isnan(value(e, "transmission_error_arcsec"))); // one phase
   EXPECT_TRUE(e.certificate.holds());
+}
+
+TEST(GearEvaluator, AnyNumberOfThreadsSolvesACupOnce) {
+  for (const int threads : {1, 4}) {
+    const auto model =
+        std::make_shared<const ForwardModel>(ForwardOptions{.disk_cache = false, .threads = 1});
+    GearEvaluator one(coarse_gear(), u0_design(), {{.torque_nm = {7.0}, .rotation_rad = {}}}, model);
+    GearEvaluator other(coarse_gear(), u0_design(), {{.torque_nm = {5.0}, .rotation_rad = {}}}, model);
+    const std::uint64_t before = cups_solved();
+    parallel_for(6, threads, [&](std::size_t k) {
+      const std::vector x{0.196 + 0.001 * static_cast<double>(k)};
+      EXPECT_TRUE(one.evaluate(x).ok);
+      EXPECT_TRUE(other.evaluate(x).ok);
+      EXPECT_FALSE(one.gradient(x).empty());
+    });
+    EXPECT_EQ(cups_solved() - before, 1u) << threads;
+  }
 }
 
 TEST(GearEvaluator, OddNumberOfTeethKeepsBothLobesApart) {

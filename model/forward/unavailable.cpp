@@ -1,28 +1,9 @@
-#include "strainwave/model/forward/inputs.hpp"
-
 #include "strainwave/model/flexspline/response_request.hpp"
 #include "strainwave/model/forward/forward.hpp"
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
-
 namespace strainwave {
-
-ContentKey curve_key(const WaveGenerator& wg, const Flexspline& fs) {
-  ContentKey key;
-  key.add(static_cast<double>(wg.shape)).add(fs.neutral_radius_mm).add(fs.rim_thickness_mm);
-  key.add(wg.max_radial_deformation_mm);
-  for (const auto& number : {wg.eccentricity_mm, wg.wrap_angle_deg, wg.force_angle_deg}) {
-    key.add(number ? 1.0 : 0.0).add(number.value_or(0.0));
-  }
-  if (wg.shape == WaveGeneratorShape::table) {
-    std::ifstream file(wg.table_file);
-    key.add(std::string(std::istreambuf_iterator<char>(file), {}));
-  }
-  return key;
-}
 
 std::optional<Failure> find_unavailable(const Gear& gear) {
   const auto refuse = [](std::string sentence) {
