@@ -60,8 +60,8 @@ struct ForwardModel::State {
 
 class Analysis {
 public:
-  Analysis(ForwardModel::State& state, const Gear& gear, Want want, const LoadStarts* starts = nullptr)
-      : state_(state), gear_(gear), want_(want), starts_(starts) {
+  Analysis(ForwardModel::State& state, const Gear& gear, Want want)
+      : state_(state), gear_(gear), want_(want) {
     result_.gear = gear.name;
     result_.fidelity = gear.contact.fidelity;
   }
@@ -73,10 +73,8 @@ public:
   ForwardGradient gradient(std::span<const std::string> parameters);
   Outcome<ContactStates> contact_states();
   Outcome<std::vector<PhaseProblem>> phase_problems(bool with_load);
-  Outcome<LoadStarts> load_starts();
 
 private:
-  Outcome<LoadStarts> unguarded_load_starts();
   Outcome<ContactStates> unguarded_contact_states();
   /// A compliance that is not positive definite is one that rounding has eaten up: data of this gear, not our
   /// bug.
@@ -108,7 +106,6 @@ private:
   ForwardModel::State& state_;
   const Gear gear_;
   Want want_;
-  const LoadStarts* starts_; ///< may be null
   ForwardResult result_;
   std::shared_ptr<const Outcome<NeutralCurve>> curve_;
   std::map<double, Backlash> tables_;

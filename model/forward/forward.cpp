@@ -55,41 +55,6 @@ Outcome<ContactStates> Analysis::contact_states() {
   }
 }
 
-Outcome<LoadStarts> Analysis::load_starts() {
-  try {
-    return unguarded_load_starts();
-  } catch (const NotPositiveDefinite& error) {
-    return ill_conditioned(error);
-  }
-}
-
-Outcome<LoadStarts> Analysis::unguarded_load_starts() {
-  if (auto failure = stages())
-    return *failure;
-  LoadStarts starts;
-  ContactSolver solver;
-  for (int j = 0; j < gear_.load.phases; ++j) {
-    const double phase = static_cast<double>(j) / gear_.load.phases;
-    const auto model = phase_model(phase);
-    if (!model)
-      return model.failure();
-    ContactStart& start = starts.by_phase[phase];
-    const auto add = [&](const Outcome<PhaseLoad>& load) -> std::optional<Failure> {
-      if (!load)
-        return load.failure();
-      start = merged(start, load->start);
-      return std::nullopt;
-    };
-    for (const double torque : gear_.load.torque_nm)
-      if (auto failure = add((*model)->at_torque(torque, solver)))
-        return *failure;
-    for (const double rotation : gear_.load.rotation_rad)
-      if (auto failure = add((*model)->at_rotation(rotation, solver)))
-        return *failure;
-  }
-  return starts;
-}
-
 Outcome<ContactStates> Analysis::unguarded_contact_states() {
   if (auto failure = stages())
     return *failure;
@@ -323,13 +288,8 @@ Outcome<std::shared_ptr<const PhaseModel>> Analysis::phase_model(double phase) {
   auto assembled = assembly(phase);
   if (!assembled)
     return assembled.failure();
-  ContactStart start;
-  if (starts_) {
-    if (const auto found = starts_->by_phase.find(phase); found != starts_->by_phase.end())
-      start = found->second;
-  }
   auto model = std::make_shared<const PhaseModel>(gear_.contact, ring_->compliance, *surface_, *assembled,
-                                                  std::move(points).value(), std::move(coast).value(), start);
+                                                  std::move(points).value(), std::move(coast).value());
   if (phases_.size() >= most_phases_kept)
     phases_.clear(); // some MB each
   phases_.emplace(phase, model);
@@ -352,12 +312,8 @@ std::optional<Failure> Analysis::load() {
 ForwardModel::ForwardModel(ForwardOptions options) : state_(std::make_unique<State>(options)) {}
 ForwardModel::~ForwardModel() = default;
 
-ForwardResult ForwardModel::analyze(const Gear& gear, Want want, const LoadStarts* starts) {
-  return Analysis(*state_, gear, want, starts).run();
-}
-
-Outcome<LoadStarts> ForwardModel::load_starts(const Gear& gear) {
-  return Analysis(*state_, gear, Want::compliance).load_starts();
+ForwardResult ForwardModel::analyze(const Gear& gear, Want want) {
+  return Analysis(*state_, gear, want).run();
 }
 
 Outcome<std::vector<PhaseProblem>> ForwardModel::phase_problems(const Gear& gear) {

@@ -19,7 +19,6 @@ namespace strainwave {
 
 struct ContactStates;  // contact_forces.hpp
 class ForwardSolution; // gradient.hpp
-struct LoadStarts;     // phase_model.hpp
 struct PhaseProblem;   // phase_problem.hpp
 
 struct ForwardOptions {
@@ -38,12 +37,8 @@ public:
   ForwardModel& operator=(const ForwardModel&) = delete;
 
   /// Never throws for a gear that cannot be computed: status and message say why. Throws std::system_error
-  /// and std::bad_alloc for disk and memory, FieldError for a faulty wave_generator.table_file. `starts`: of
-  /// a nominal gear, fixed by a study's plan; they save work and change no result.
-  ForwardResult analyze(const Gear& gear, Want want = Want::load, const LoadStarts* starts = nullptr);
-
-  /// Where the loads of a gear's neighbours may start: its own solutions, drive side, every phase.
-  Outcome<LoadStarts> load_starts(const Gear& gear);
+  /// and std::bad_alloc for disk and memory, FieldError for a faulty wave_generator.table_file.
+  ForwardResult analyze(const Gear& gear, Want want = Want::load);
 
   /// The same numbers for Want::load without what only people look at (backlash by tooth, compliance of the
   /// teeth); where the status is ok, `solution` is what the derivatives can be had from.
