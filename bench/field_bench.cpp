@@ -5,6 +5,7 @@
 #include "strainwave/model/flexspline/cyclic_stress.hpp"
 #include "strainwave/model/flexspline/responses.hpp"
 #include "strainwave/model/flexspline/ring.hpp"
+#include "tests/model/flexspline/ring_solver.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -47,7 +48,7 @@ void field_by_whole_ring(benchmark::State& state) {
     for (std::size_t c = 0; c < 4; ++c)
       for (const FieldLoad& load : cup.cases[c])
         ring.add_load(*load.functional, load.sector, load.factor, force.col(static_cast<Eigen::Index>(c)));
-    benchmark::DoNotOptimize(RingSolver(ring, cup.gear.material).solve(force));
+    benchmark::DoNotOptimize(testing_support::RingSolver(ring, cup.gear.material).solve(force));
   }
 }
 BENCHMARK(field_by_whole_ring)->Unit(benchmark::kMillisecond)->Iterations(1);

@@ -92,21 +92,6 @@ void whole_flank(benchmark::State& state) {
 }
 BENCHMARK(whole_flank)->Unit(benchmark::kMillisecond);
 
-// The same, started from the selection and closed set of the unmodified gear, as a study's plan fixes them
-// once.
-void whole_flank_started(benchmark::State& state) {
-  Gear gear = one_load(7.0);
-  gear.contact.flank_points = 6;
-  gear.contact.face_slices = 5;
-  const LoadStarts starts = warm_model().load_starts(gear).value();
-  double relief = 0.0;
-  for (auto _ : state) {
-    gear.flank_modification.flexspline.tip_relief_um = relief += 1e-3;
-    benchmark::DoNotOptimize(warm_model().analyze(gear, Want::load, &starts));
-  }
-}
-BENCHMARK(whole_flank_started)->Unit(benchmark::kMillisecond);
-
 /// The contact alone: gaps are known and a little different every time, assembly and finite elements are
 /// there.
 class ContactAlone {
@@ -132,11 +117,11 @@ public:
       point.coast = true;
     }
   }
-  PhaseLoad solve(double change_um, const ContactStart& start) {
+  PhaseLoad solve(double change_um) {
     std::vector<LoadedPoint> moved = drive;
     for (LoadedPoint& point : moved)
       point.backlash_mm += 1e-3 * change_um;
-    return PhaseModel(gear.contact, *ring, *discs, assembled, std::move(moved), coast, start)
+    return PhaseModel(gear.contact, *ring, *discs, assembled, std::move(moved), coast)
         .at_torque(7.0 + change_um, solver)
         .value();
   }
@@ -151,18 +136,16 @@ public:
   ContactSolver solver;
 };
 
-void contact_alone(benchmark::State& state, bool started) {
+void contact_alone(benchmark::State& state) {
   static ContactAlone contact;
-  const ContactStart start = started ? contact.solve(0.0, {}).start : ContactStart{};
   double change = 0.0;
   int rounds = 0;
   for (auto _ : state)
-    rounds = contact.solve(change += 1e-4, start).rounds;
+    rounds = contact.solve(change += 1e-4).rounds;
   state.counters["candidates"] = static_cast<double>(contact.drive.size() + contact.coast.size());
   state.counters["rounds"] = rounds;
 }
-BENCHMARK_CAPTURE(contact_alone, cold, false)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(contact_alone, warm, true)->Unit(benchmark::kMillisecond);
+BENCHMARK(contact_alone)->Unit(benchmark::kMillisecond);
 
 void backlash_only(benchmark::State& state) {
   Gear gear = one_load(7.0);

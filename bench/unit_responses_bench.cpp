@@ -9,6 +9,7 @@
 #include "strainwave/model/flexspline/cyclic.hpp"
 #include "strainwave/model/flexspline/response_store.hpp"
 #include "strainwave/model/flexspline/responses.hpp"
+#include "tests/support/calculix_output.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -138,7 +139,7 @@ void calculix_one_load(benchmark::State& state) {
     if (std::system(command.c_str()) != 0)
       state.SkipWithError("ccx failed");
   std::ifstream printed(folder / "cup.dat");
-  const auto steps = read_calculix_displacements(printed, ring.nodes());
+  const auto steps = testing_support::read_calculix_displacements(printed, ring.nodes());
   if (steps.size() != 1) {
     state.SkipWithError("ccx printed no displacements");
     return;

@@ -50,10 +50,6 @@ Estimate pearson_correlation(std::span<const double> x, std::span<const double> 
   return with_interval(r, 1.0 / std::sqrt(static_cast<double>(x.size()) - 3.0));
 }
 
-Estimate spearman_correlation(std::span<const double> x, std::span<const double> y) {
-  return spearman_of_ranks(ranks_of(x), ranks_of(y));
-}
-
 Estimate spearman_of_ranks(std::span<const double> x_ranks, std::span<const double> y_ranks) {
   const double r = correlation_of(x_ranks, y_ranks);
   return with_interval(r, std::sqrt((1.0 + 0.5 * r * r) / (static_cast<double>(x_ranks.size()) - 3.0)));

@@ -11,11 +11,8 @@ namespace strainwave {
 /// pairs. A constant column has no correlation: 0 with the interval [−1, 1].
 Estimate pearson_correlation(std::span<const double> x, std::span<const double> y);
 
-/// Spearman's: of the ranks, ties shared; interval with the spread √((1 + r²/2)/(n − 3)) of Bonett and Wright
-/// (Psychometrika 65, 2000).
-Estimate spearman_correlation(std::span<const double> x, std::span<const double> y);
-
-/// The same from ranks that are known: they cost more than the correlation.
+/// Spearman's, of the ranks, which cost more than the correlation (ties shared: ranks_of()); interval with
+/// the spread √((1 + r²/2)/(n − 3)) of Bonett and Wright (Psychometrika 65, 2000).
 Estimate spearman_of_ranks(std::span<const double> x_ranks, std::span<const double> y_ranks);
 
 /// Ranks 1 … n; equal values share the mean of theirs.

@@ -20,13 +20,6 @@ Interval wilson_interval(std::uint64_t hits, std::uint64_t n) {
   return {hits == 0 ? 0.0 : middle - half, hits == n ? 1.0 : middle + half};
 }
 
-Interval clopper_pearson_interval(std::uint64_t hits, std::uint64_t n) {
-  using boost::math::binomial;
-  const double total = static_cast<double>(n), k = static_cast<double>(hits);
-  return {hits == 0 ? 0.0 : binomial::find_lower_bound_on_p(total, k, 0.025),
-          hits == n ? 1.0 : binomial::find_upper_bound_on_p(total, k, 0.025)};
-}
-
 QuantileRanks quantile_ranks(double p, std::uint64_t n) {
   using namespace boost::math;
   // Number of values below the quantile: B. The interval [x(l), x(u)) covers when l <= B <= u − 1.

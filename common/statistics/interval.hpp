@@ -28,8 +28,6 @@ double student_975(double degrees_of_freedom);
 
 /// A share from `hits` of n independent trials. Wilson (JASA 22, 1927): coverage near 95 % for every share.
 Interval wilson_interval(std::uint64_t hits, std::uint64_t n);
-/// Clopper, Pearson (Biometrika 26, 1934): never below 95 %, wider.
-Interval clopper_pearson_interval(std::uint64_t hits, std::uint64_t n);
 
 /// Ranks (counted from 1) of the order statistics that enclose the p quantile of n independent values with at
 /// least 95 %: from the binomial distribution of how many lie below. lower == 0 or upper == n + 1: the sample

@@ -2,8 +2,8 @@
 // Sobol' indices: which share of an output's variance comes from which input.
 //
 // First index of input i: what knowing it alone would remove; total index: what would remain if all others
-// were known. With the blocks of SaltelliPoints (values a = f(A), b = f(B), c_i = f(A with coordinate i of
-// B), centred by their common mean):
+// were known. With blocks of inputs + 2 rows (Saltelli, Comput. Phys. Commun. 145, 2002: A, B and, for each
+// input i, A with coordinate i of B; values a = f(A), b = f(B), c_i = f(that), centred by their common mean):
 //     V       variance of all a and b
 //     first   mean of b (c_i − a) / V     Saltelli et al., Comput. Phys. Commun. 181 (2010), table 2 (b)
 //     total   mean of (a − c_i)² / 2 V    Jansen, Comput. Phys. Commun. 117 (1999)

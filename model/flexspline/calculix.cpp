@@ -1,10 +1,7 @@
 #include "strainwave/model/flexspline/calculix.hpp"
 
 #include <cmath>
-#include <istream>
 #include <ostream>
-#include <sstream>
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -79,27 +76,6 @@ void write_calculix_deck(std::ostream& out, const RingPart& part, const Material
     }
     fmt::print(out, "*NODE PRINT, NSET=ALL\nU\n*NODE FILE\nU\n*END STEP\n");
   }
-}
-
-std::vector<std::vector<double>> read_calculix_displacements(std::istream& in, int nodes) {
-  std::vector<std::vector<double>> steps;
-  std::string line;
-  while (std::getline(in, line)) {
-    if (line.find("displacements") != std::string::npos) {
-      steps.emplace_back(3 * static_cast<std::size_t>(nodes), 0.0);
-      continue;
-    }
-    std::istringstream fields(line);
-    long node = 0;
-    double u[3] = {};
-    if (steps.empty() || !(fields >> node))
-      continue;
-    if (!(fields >> u[0] >> u[1] >> u[2]) || node < 1 || node > nodes)
-      throw std::runtime_error("not a CalculiX displacement line: " + line);
-    for (std::size_t c = 0; c < 3; ++c)
-      steps.back()[3 * static_cast<std::size_t>(node - 1) + c] = u[c];
-  }
-  return steps;
 }
 
 } // namespace strainwave

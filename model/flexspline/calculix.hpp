@@ -25,8 +25,4 @@ struct DeckLoad {
 void write_calculix_deck(std::ostream& out, const RingPart& part, const Material& material,
                          const std::vector<std::vector<DeckLoad>>& cases, const std::string& title);
 
-/// Cartesian displacements of all nodes from the text of a .dat file, one vector (3·nodes) a step, in mm.
-/// Throws std::runtime_error with the line when the text is no such file.
-std::vector<std::vector<double>> read_calculix_displacements(std::istream& in, int nodes);
-
 } // namespace strainwave

@@ -12,7 +12,7 @@
 //
 //        u_i,j = K_ii⁻¹ f_i,j − Z_l u_j − Z_r u_{j+1}.
 //
-// Unlike the factor of the whole ring (ring.hpp, the tests' reference) this needs the memory of one sector.
+// Unlike the factor of the whole ring (the tests' reference) this needs the memory of one sector.
 
 #include "strainwave/model/flexspline/functionals.hpp"
 #include "strainwave/model/flexspline/mesh.hpp"

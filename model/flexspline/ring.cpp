@@ -1,9 +1,6 @@
 #include "strainwave/model/flexspline/ring.hpp"
 
-#include "strainwave/model/flexspline/element.hpp"
-
 #include <algorithm>
-#include <stdexcept>
 
 namespace strainwave {
 
@@ -71,45 +68,6 @@ double RingPart::measure(const Functional& functional, int j,
     for (std::size_t n = 0; n < weights->dof.size(); ++n)
       sum += weights->weight[n] * displacement[3 * node(weights->dof[n] / 3, at) + weights->dof[n] % 3];
   return sum;
-}
-
-RingSolver::RingSolver(const RingPart& part, const Material& material, const std::vector<int>& also_fixed) {
-  unknown.assign(3 * static_cast<std::size_t>(part.nodes()), 0);
-  for (const int dof : part.fixed())
-    unknown[static_cast<std::size_t>(dof)] = -1;
-  for (const int dof : also_fixed)
-    unknown[static_cast<std::size_t>(dof)] = -1;
-  int size = 0;
-  for (int& u : unknown)
-    if (u == 0)
-      u = size++;
-  assembly = SparseAssembly(size);
-  const SectorMesh& mesh = part.mesh();
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const ElementStiffness stiffness = cylindrical_stiffness(mesh, static_cast<int>(e), material);
-    for (int j = 0; j < part.sectors(); ++j) {
-      std::array<int, 60> place{};
-      for (std::size_t a = 0; a < 60; ++a)
-        place[a] = unknown[3 * static_cast<std::size_t>(part.node(mesh.elements[e][a / 3], j)) + a % 3];
-      assembly.add(place, stiffness);
-    }
-  }
-  factor = std::make_unique<SparseCholesky>(assembly);
-}
-
-Eigen::MatrixXd RingSolver::solve(const Eigen::MatrixXd& force) const {
-  Eigen::MatrixXd inner(assembly.size(), force.cols());
-  for (std::size_t dof = 0; dof < unknown.size(); ++dof)
-    if (unknown[dof] >= 0)
-      inner.row(unknown[dof]) = force.row(static_cast<Eigen::Index>(dof));
-  Eigen::MatrixXd solution = factor->solve(inner);
-  for (int step = 0; step < 2; ++step)
-    solution += factor->solve(residual(assembly, inner, solution));
-  Eigen::MatrixXd displacement = Eigen::MatrixXd::Zero(force.rows(), force.cols());
-  for (std::size_t dof = 0; dof < unknown.size(); ++dof)
-    if (unknown[dof] >= 0)
-      displacement.row(static_cast<Eigen::Index>(dof)) = solution.row(unknown[dof]);
-  return displacement;
 }
 
 } // namespace strainwave

@@ -1,14 +1,9 @@
 #pragma once
-// The ring, or an open part of it, sector by sector: node numbers, and the plain full solution.
-//
-// The full solution is the slow and simple reference of the cyclic one, serves bodies that are no ring
-// (beams, quarter rings) in tests, and gives the displacements of a whole cup under any loads.
+// The ring, or an open part of it, sector by sector: node numbers, loads and measurements.
 
 #include "strainwave/model/flexspline/functionals.hpp"
 #include "strainwave/model/flexspline/mesh.hpp"
-#include "strainwave/model/flexspline/sparse.hpp"
 
-#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -43,21 +38,6 @@ private:
   const SectorMesh& sector;
   int count;
   std::vector<int> left_place; ///< of a right node: its pair's place among the left nodes
-};
-
-/// One sparse factorization of the whole part; solutions are refined twice with residuals in twice the
-/// working precision (a free cup multiplies rounding by 10⁷, see condensation.hpp).
-class RingSolver {
-public:
-  /// `also_fixed`: further supports, 3·node + component. Throws as SparseCholesky does.
-  RingSolver(const RingPart& part, const Material& material, const std::vector<int>& also_fixed = {});
-  /// Displacements under forces, both 3·nodes() in cylindrical frames, a column each.
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& force) const;
-
-private:
-  std::vector<int> unknown;
-  SparseAssembly assembly{0};
-  std::unique_ptr<SparseCholesky> factor;
 };
 
 } // namespace strainwave

@@ -27,31 +27,6 @@ Outcome<Value> of_meshed(const std::shared_ptr<SharedStages>& stages, const Gear
   }
 }
 
-Outcome<LoadStarts> starts_of(const Gear& gear, const MeshedGear& meshed) {
-  LoadStarts starts;
-  ContactSolver solver;
-  for (int j = 0; j < gear.load.phases; ++j) {
-    const MeshingPhase phase{j, gear.load.phases};
-    const auto model = meshed.phase_model(phase);
-    if (!model)
-      return model.failure();
-    ContactStart& start = starts.by_phase[phase];
-    const auto add = [&](const Outcome<PhaseLoad>& load) -> std::optional<Failure> {
-      if (!load)
-        return load.failure();
-      start = merged(start, load->start);
-      return std::nullopt;
-    };
-    for (const double torque : gear.load.torque_nm)
-      if (auto failure = add((*model)->at_torque(torque, solver)))
-        return *failure;
-    for (const double rotation : gear.load.rotation_rad)
-      if (auto failure = add((*model)->at_rotation(rotation, solver)))
-        return *failure;
-  }
-  return starts;
-}
-
 Outcome<ContactStates> states_of(const Gear& gear, const Run& run) {
   const auto model = run.meshed->phase_model(MeshingPhase{});
   if (!model)
@@ -111,12 +86,8 @@ Outcome<std::vector<PhaseProblem>> problems_of(const Gear& gear, const MeshedGea
 
 ForwardModel::ForwardModel(ForwardOptions options) : stages_(std::make_shared<SharedStages>(options)) {}
 
-ForwardResult ForwardModel::analyze(const Gear& gear, Want want, const LoadStarts* starts) const {
-  return complete_run(stages_, gear, {.want = want, .starts = starts}).result;
-}
-
-Outcome<LoadStarts> ForwardModel::load_starts(const Gear& gear) const {
-  return of_meshed<LoadStarts>(stages_, gear, [&](const Run& run) { return starts_of(gear, *run.meshed); });
+ForwardResult ForwardModel::analyze(const Gear& gear, Want want) const {
+  return complete_run(stages_, gear, {.want = want}).result;
 }
 
 Outcome<std::vector<PhaseProblem>> ForwardModel::phase_problems(const Gear& gear) const {

@@ -21,7 +21,6 @@ namespace strainwave {
 
 struct ContactStates;  // contact_forces.hpp
 class ForwardSolution; // gradient.hpp
-struct LoadStarts;     // phase_model.hpp
 struct PhaseProblem;   // phase_problem.hpp
 class SharedStages;    // shared_stages.hpp
 
@@ -38,12 +37,8 @@ public:
   explicit ForwardModel(ForwardOptions options = {});
 
   /// Never throws for a gear that cannot be computed: status and message say why. Throws std::system_error
-  /// and std::bad_alloc for disk and memory, FieldError for a faulty wave_generator.table_file. `starts`: of
-  /// a nominal gear, fixed by a study's plan; they save work and change no result.
-  ForwardResult analyze(const Gear& gear, Want want = Want::load, const LoadStarts* starts = nullptr) const;
-
-  /// Where the loads of a gear's neighbours may start: its own solutions, drive side, every phase.
-  Outcome<LoadStarts> load_starts(const Gear& gear) const;
+  /// and std::bad_alloc for disk and memory, FieldError for a faulty wave_generator.table_file.
+  ForwardResult analyze(const Gear& gear, Want want = Want::load) const;
 
   /// The same numbers for Want::load without what only people look at (backlash by tooth, compliance of the
   /// teeth); where the status is ok, `solution` is what the derivatives can be had from.

@@ -51,9 +51,8 @@ Outcome<double> disc_shift(SharedStages& stages, const Gear& gear, const StageIn
                              gear.wave_generator.max_radial_deformation_mm)};
 }
 
-MeshedGear::MeshedGear(std::shared_ptr<const MountedCup> cup, std::vector<FlankPair> flanks,
-                       const LoadStarts* starts)
-    : cup_(std::move(cup)), flanks_(std::move(flanks)), starts_(starts) {}
+MeshedGear::MeshedGear(std::shared_ptr<const MountedCup> cup, std::vector<FlankPair> flanks)
+    : cup_(std::move(cup)), flanks_(std::move(flanks)) {}
 
 Outcome<std::vector<LoadedPoint>> MeshedGear::points(MeshingPhase phase) const {
   const auto found = points_.get(phase, [&] { return points_at(phase); });
@@ -88,13 +87,9 @@ Outcome<std::shared_ptr<const PhaseModel>> MeshedGear::model_at(MeshingPhase pha
   auto assembled = cup_->assembly(phase);
   if (!assembled)
     return assembled.failure();
-  ContactStart start;
-  if (starts_)
-    if (const auto found = starts_->by_phase.find(phase); found != starts_->by_phase.end())
-      start = found->second;
   return std::make_shared<const PhaseModel>(gear().contact, cup_->ring().compliance, cup_->surface(),
                                             std::move(assembled).value(), std::move(drive).value(),
-                                            coast_points(std::move(mirrored).value(), phase), start);
+                                            coast_points(std::move(mirrored).value(), phase));
 }
 
 } // namespace strainwave

@@ -45,8 +45,8 @@ Outcome<double> disc_shift(SharedStages& stages, const Gear& gear, const StageIn
 
 class MeshedGear {
 public:
-  /// flanks: one pair for each slice of the responses. starts: null, or outlives it.
-  MeshedGear(std::shared_ptr<const MountedCup> cup, std::vector<FlankPair> flanks, const LoadStarts* starts);
+  /// flanks: one pair for each slice of the responses.
+  MeshedGear(std::shared_ptr<const MountedCup> cup, std::vector<FlankPair> flanks);
 
   const Gear& gear() const { return cup_->gear(); }
   const MountedCup& cup() const { return *cup_; }
@@ -61,7 +61,6 @@ private:
 
   std::shared_ptr<const MountedCup> cup_;
   std::vector<FlankPair> flanks_;
-  const LoadStarts* starts_;
   mutable Memo<MeshingPhase, Outcome<std::vector<LoadedPoint>>> points_{64};
   mutable Memo<MeshingPhase, Outcome<std::shared_ptr<const PhaseModel>>> models_{64}; ///< some MB each
 };

@@ -204,7 +204,7 @@ private:
     auto flanks = flanks_at(gear_, slice_places(*run_.cup->ring().responses));
     if (!flanks)
       return flanks.failure();
-    run_.meshed = std::make_shared<const MeshedGear>(run_.cup, std::move(flanks).value(), ask_.starts);
+    run_.meshed = std::make_shared<const MeshedGear>(run_.cup, std::move(flanks).value());
     return std::nullopt;
   }
 

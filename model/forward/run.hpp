@@ -15,7 +15,6 @@ struct Ask {
   /// Without what only people look at (backlash by tooth, compliance of the teeth), and with the solved
   /// loads.
   bool lean = false;
-  const LoadStarts* starts = nullptr;
 };
 
 /// What a run has come to.

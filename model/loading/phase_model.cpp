@@ -7,8 +7,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <set>
-#include <tuple>
 
 namespace strainwave {
 
@@ -45,45 +43,19 @@ ContactState march_to_torque(const ContactProblem& problem, double torque, doubl
   return march(problem, start, std::max(start, rotation), options, solver).last;
 }
 
-/// The name of a point: drive before coast, then by tooth, slice and height.
-template <class Point>
-auto name_of(const Point& point) {
-  return std::tuple(point.coast, point.tooth, point.slice, point.level);
-}
-
 } // namespace
-
-ContactStart merged(const ContactStart& first, const ContactStart& second) {
-  ContactStart both = second;
-  std::set<decltype(name_of(second.points.front()))> named;
-  for (const ContactStart::Point& point : second.points)
-    named.insert(name_of(point));
-  for (ContactStart::Point point : first.points) {
-    point.closed = false;
-    if (named.insert(name_of(point)).second)
-      both.points.push_back(point);
-  }
-  std::sort(both.points.begin(), both.points.end(),
-            [](const auto& a, const auto& b) { return name_of(a) < name_of(b); });
-  return both;
-}
 
 PhaseModel::PhaseModel(const Contact& contact, const RingCompliance& ring,
                        const WaveGeneratorSurface& surface, std::shared_ptr<const AssembledState> assembled,
-                       std::vector<LoadedPoint> points, std::vector<LoadedPoint> coast,
-                       const ContactStart& start)
+                       std::vector<LoadedPoint> points, std::vector<LoadedPoint> coast)
     : contact_(contact), ring_(ring), surface_(surface), assembled_(std::move(assembled)),
       drive_(std::move(points)), coast_(std::move(coast)), points_(drive_) {
   points_.insert(points_.end(), coast_.begin(), coast_.end());
   functionals_ = tooth_functionals(ring_, points_);
-  std::vector<int> index = started_selection(start);
-  if (index.empty()) {
-    index = first_selection();
+  std::vector<int> index = first_selection();
+  if (contact_.fidelity != Fidelity::linear) { // first guess of the wall's set, from the assembly alone
     start_set_.assign(index.size(), 0);
-    if (contact_.fidelity != Fidelity::linear) // first guess of the wall's set, from the assembly alone
-      start_set_.insert(start_set_.end(), assembled_->active.begin(), assembled_->active.end());
-    else
-      start_set_.clear();
+    start_set_.insert(start_set_.end(), assembled_->active.begin(), assembled_->active.end());
   }
   first_ = select(std::move(index));
 }
@@ -159,48 +131,6 @@ std::vector<int> PhaseModel::first_selection() const {
   return index;
 }
 
-/// The points that a start names, as far as they exist here; fills start_set_. Empty: the start does not fit.
-std::vector<int> PhaseModel::started_selection(const ContactStart& start) {
-  const bool linear = contact_.fidelity == Fidelity::linear;
-  if (start.points.empty() || start.wall.size() != (linear ? 0 : assembled_->active.size()))
-    return {};
-  std::map<decltype(name_of(points_.front())), bool> named;
-  for (const ContactStart::Point& point : start.points)
-    named.emplace(name_of(point), point.closed);
-  std::vector<int> index;
-  bool drive = false;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const auto found = named.find(name_of(points_[i]));
-    if (found == named.end())
-      continue;
-    index.push_back(static_cast<int>(i));
-    start_set_.push_back(found->second);
-    drive = drive || !points_[i].coast;
-  }
-  if (!drive) {
-    start_set_.clear();
-    return {};
-  }
-  start_set_.insert(start_set_.end(), start.wall.begin(), start.wall.end());
-  started_ = true;
-  return index;
-}
-
-ContactStart PhaseModel::start_of(const Selection& selection, const Solved& solved) const {
-  ContactStart start;
-  for (std::size_t k = 0; k < selection.index.size(); ++k) {
-    const LoadedPoint& point = selection.points[k];
-    start.points.push_back({.tooth = point.tooth,
-                            .slice = point.slice,
-                            .level = point.level,
-                            .coast = point.coast,
-                            .closed = solved.state.active[k] != 0});
-  }
-  start.wall.assign(solved.state.active.begin() + static_cast<std::ptrdiff_t>(selection.index.size()),
-                    solved.state.active.end());
-  return start;
-}
-
 Outcome<PhaseLoad> PhaseModel::at_torque(double torque_nm, ContactSolver& solver) const {
   return solve(Control::torque, 1e3 * torque_nm / first_.load.lobes, solver);
 }
@@ -214,8 +144,8 @@ Outcome<PhaseLoad> PhaseModel::solve(Control control, double value, ContactSolve
   const Selection* selection = &first_;
   ActiveSet warm = start_set_;
   // A selection that is likely to grow grows on the linearised disc gap first.
-  bool exact = started_ || contact_.fidelity == Fidelity::linear ||
-               contact_.disc_gap == DiscGap::linearised || first_.index.size() >= drive_.size();
+  bool exact = contact_.fidelity == Fidelity::linear || contact_.disc_gap == DiscGap::linearised ||
+               first_.index.size() >= drive_.size();
   for (int round = 1;; ++round) {
     auto solved = solve_selection(*selection, control, value, warm, exact, solver);
     if (!solved)
@@ -262,7 +192,6 @@ Outcome<PhaseLoad> PhaseModel::solve(Control control, double value, ContactSolve
       load.coast_force_n.assign(force.begin() + middle, force.end());
       load.gap_um.assign(gap_um.begin(), gap_um.begin() + middle);
       load.coast_gap_um.assign(gap_um.begin() + middle, gap_um.end());
-      load.start = start_of(*selection, *solved);
       return load;
     }
     set.insert(set.end(), solved->state.active.begin() + static_cast<std::ptrdiff_t>(selection->index.size()),

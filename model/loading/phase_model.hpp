@@ -9,41 +9,16 @@
 // both sides are rigid. After a solve the gap of every other point, drive and coast, is computed from the
 // forces; those that would penetrate join, until none does. So no contact can be missed, and the result is
 // the solution of the whole problem.
-//
-// A study that solves many neighbours of one gear may hand in a start: selection and closed set of a nominal
-// load, fixed by its plan. It saves work and changes no result (contact/lcp.hpp: a first guess changes no
-// bit; a larger selection holds more open points, which are no part of the factor).
 
 #include "strainwave/model/contact/load_problem.hpp"
 #include "strainwave/model/gear/gear.hpp"
 #include "strainwave/model/meshing/meshing_phase.hpp"
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace strainwave {
-
-/// Where to start: a selection of points and what was closed, by names that hold for any gaps. Empty: from
-/// scratch.
-struct ContactStart {
-  struct Point {
-    int tooth = 0, slice = 0, level = 0; ///< as in LoadedPoint
-    bool coast = false;
-    bool closed = false;
-  };
-  std::vector<Point> points; ///< ascending: drive then coast, as the model lists them
-  ActiveSet wall;            ///< by station; empty for fidelity linear
-};
-
-/// The points of both; what is closed in the second.
-ContactStart merged(const ContactStart& first, const ContactStart& second);
-
-/// Starts by drive-side meshing phase.
-struct LoadStarts {
-  std::map<MeshingPhase, ContactStart> by_phase;
-};
 
 /// One load at one phase. Arrays run over PhaseModel::points(), those with coast_ over
 /// PhaseModel::coast_points().
@@ -67,8 +42,7 @@ struct PhaseLoad {
   double rounding_um = 0.0; ///< of a gap (gap_rounding_mm)
   ContactCertificate certificate;
   bool contact = false;
-  int rounds = 1;     ///< selections tried
-  ContactStart start; ///< of a neighbour of this load
+  int rounds = 1; ///< selections tried
 };
 
 class PhaseModel {
@@ -78,7 +52,7 @@ public:
   /// candidates.
   PhaseModel(const Contact& contact, const RingCompliance& ring, const WaveGeneratorSurface& surface,
              std::shared_ptr<const AssembledState> assembled, std::vector<LoadedPoint> points,
-             std::vector<LoadedPoint> coast = {}, const ContactStart& start = {});
+             std::vector<LoadedPoint> coast = {});
 
   const std::vector<LoadedPoint>& points() const { return drive_; }
   const std::vector<LoadedPoint>& coast_points() const { return coast_; }
@@ -114,8 +88,6 @@ private:
   Selection select(std::vector<int> index) const;
   std::vector<int> first_selection() const;
   std::vector<int> least_of_tooth_slices(bool coast) const;
-  std::vector<int> started_selection(const ContactStart& start);
-  ContactStart start_of(const Selection& selection, const Solved& solved) const;
   Outcome<PhaseLoad> solve(Control control, double value, ContactSolver& solver) const;
   Outcome<Solved> solve_selection(const Selection& selection, Control control, double value,
                                   const ActiveSet& warm, bool exact, ContactSolver& solver) const;
@@ -129,8 +101,7 @@ private:
   std::vector<LoadedPoint> drive_, coast_;
   std::vector<LoadedPoint> points_;          ///< drive, then coast
   std::vector<ToothFunctional> functionals_; ///< of points_
-  ActiveSet start_set_;  ///< first guess of the first selection's closed set, wall included
-  bool started_ = false; ///< from a ContactStart
+  ActiveSet start_set_; ///< first guess of the first selection's closed set, wall included
   Selection first_;
 };
 

@@ -4,7 +4,7 @@
 // (engine, journal, shards, statistics, reports) is the same for all of them.
 //
 //     monte_carlo    row k is sample k of `design`
-//     sobol          blocks of (index_names + 2) rows as in sampling/saltelli_points.hpp: A, B, A with source
+//     sobol          blocks of (index_names + 2) rows as in statistics/sobol_indices.hpp: A, B, A with source
 //     i of B morris         trajectories of (index_names + 1) rows local          whatever rows are wanted;
 //     `elasticities` reads them
 //

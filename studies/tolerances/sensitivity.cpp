@@ -18,6 +18,7 @@
 
 #include "strainwave/common/sampling/counter_random.hpp"
 #include "strainwave/common/sampling/sobol_points.hpp"
+#include "strainwave/common/statistics/association.hpp"
 #include "strainwave/studies/tolerances/sampled_gear.hpp"
 
 #include <algorithm>
@@ -124,7 +125,7 @@ std::vector<LocalElasticity> elasticities_of(const SampledGear& gear, const std:
       LocalElasticity e{columns[output].name, s.name, rise / (2.0 * local_share * s.std), 0.0};
       const double here = table.value(0, output);
       if (here != 0.0)
-        e.elasticity = e.derivative * s.mean / here;
+        e.elasticity = elasticity(e.derivative, s.mean, here);
       all.push_back(std::move(e));
     }
   }

@@ -1,13 +1,15 @@
 #include "strainwave/common/statistics/sobol_indices.hpp"
 
-#include "strainwave/common/sampling/saltelli_points.hpp"
 #include "tests/common/statistics/trials.hpp"
+#include "tests/support/saltelli_points.hpp"
 
 #include <functional>
 #include <numbers>
 
 namespace strainwave {
 namespace {
+
+using testing_support::SaltelliPoints;
 
 constexpr double pi = std::numbers::pi;
 using Function = std::function<double(std::span<const double>)>;
@@ -153,15 +155,6 @@ TEST(SobolIndices, TooFewWholeBlocksAreRefused) {
   for (std::size_t k = 0; k < 40; k += 5)
     status[k] = 1;
   EXPECT_THROW(sobol_indices(y, status, 3), std::invalid_argument);
-}
-
-TEST(SaltelliPoints, OnlyPowersOfTwo) {
-  try {
-    const SaltelliPoints points(SamplingDesign::sobol, 1, 3, 1000);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "Sobol' indices want a power of two of blocks, got 1000; take 1024");
-  }
 }
 
 void cover(const Function& f, const Known& known, int inputs, int trials, double tolerance) {

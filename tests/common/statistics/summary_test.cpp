@@ -22,7 +22,7 @@ TEST(Summary, AgreesWithOpenTurns) {
   EXPECT_NEAR(sx.std.value, 0.9066144729671631, 1e-13);
   EXPECT_NEAR(sy.std.value, 2.501184273892474, 1e-13);
   EXPECT_NEAR(pearson_correlation(x, y).value, 0.5778629244689856, 1e-13);
-  EXPECT_NEAR(spearman_correlation(x, y).value, 0.5540178504462612, 1e-13);
+  EXPECT_NEAR(spearman_of_ranks(ranks_of(x), ranks_of(y)).value, 0.5540178504462612, 1e-13);
 }
 
 TEST(Summary, ASmallSampleByHand) {
@@ -81,7 +81,7 @@ void cover_random(int trials, double tolerance) {
     coverage.add(4, s.exceedances[0].probability, normal_cdf(-1.5));
     coverage.add(5, pearson_correlation(first, y), slopes[0] / spread);
     // Spearman's of a normal pair: (6/π) asin(ρ/2).
-    coverage.add(6, spearman_correlation(first, y),
+    coverage.add(6, spearman_of_ranks(ranks_of(first), ranks_of(y)),
                  6.0 / 3.14159265358979 * std::asin(0.5 * slopes[0] / spread));
   }
   coverage.expect(trials, tolerance);

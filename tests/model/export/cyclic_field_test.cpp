@@ -7,6 +7,7 @@
 #include "strainwave/model/flexspline/cyclic.hpp"
 #include "strainwave/model/flexspline/ring.hpp"
 #include "tests/model/flexspline/bodies.hpp"
+#include "tests/model/flexspline/ring_solver.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +40,7 @@ TEST(CyclicField, equals_the_solution_of_the_whole_ring) {
   for (std::size_t c = 0; c < 2; ++c)
     for (const FieldLoad& load : cases[c])
       ring.add_load(*load.functional, load.sector, load.factor, force.col(static_cast<Eigen::Index>(c)));
-  const Eigen::MatrixXd full = RingSolver(ring, cup.request.material).solve(force);
+  const Eigen::MatrixXd full = testing_support::RingSolver(ring, cup.request.material).solve(force);
   ASSERT_EQ(field.displacement.rows(), full.rows());
   EXPECT_LT((field.force - force).cwiseAbs().maxCoeff(), 1e-15); // rounding of sums
   // Both lose about log10(condition of a thin cup) ≈ 7 digits of 16.

@@ -7,6 +7,7 @@
 #include "strainwave/model/flexspline/ring.hpp"
 #include "tests/model/export/folder.hpp"
 #include "tests/model/flexspline/bodies.hpp"
+#include "tests/support/calculix_output.hpp"
 
 #include <cmath>
 #include <sstream>
@@ -119,7 +120,7 @@ TEST(Deck, calculix_gives_the_fields_of_this_program) {
       0);
   std::ifstream printed(folder / "cup.dat");
   const RingPart ring(mesh);
-  const auto steps = read_calculix_displacements(printed, ring.nodes());
+  const auto steps = testing_support::read_calculix_displacements(printed, ring.nodes());
   ASSERT_EQ(steps.size(), 1u);
 
   std::vector<FieldLoad> loads;

@@ -2,6 +2,7 @@
 // our displacements.
 
 #include "strainwave/model/flexspline/calculix.hpp"
+#include "tests/support/calculix_output.hpp"
 
 #include "strainwave/model/flexspline/cyclic.hpp"
 #include "strainwave/model/flexspline/responses.hpp"
@@ -47,7 +48,8 @@ TEST(Calculix, coarse_cup_with_teeth_agrees_to_the_printed_digits) {
   const std::string command = "cd '" + folder.string() + "' && OMP_NUM_THREADS=1 ccx cup > ccx.log 2>&1";
   ASSERT_EQ(std::system(command.c_str()), 0) << folder;
   std::ifstream printed(folder / "cup.dat");
-  const std::vector<std::vector<double>> steps = read_calculix_displacements(printed, ring.nodes());
+  const std::vector<std::vector<double>> steps =
+      testing_support::read_calculix_displacements(printed, ring.nodes());
   ASSERT_EQ(steps.size(), loads.size());
 
   const std::vector<double> angles = ring.angles();
@@ -96,7 +98,7 @@ TEST(Calculix, every_number_fits_its_field) {
 
 TEST(Calculix, a_broken_result_file_is_named_by_its_line) {
   std::istringstream text(" displacements (vx,vy,vz) for set ALL and time  0.1E+01\n\n 1  0.1 0.2\n");
-  EXPECT_THROW((void)read_calculix_displacements(text, 4), std::runtime_error);
+  EXPECT_THROW((void)testing_support::read_calculix_displacements(text, 4), std::runtime_error);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "strainwave/model/flexspline/responses.hpp"
 #include "strainwave/model/flexspline/ring.hpp"
 #include "tests/model/flexspline/bodies.hpp"
+#include "tests/model/flexspline/ring_solver.hpp"
 
 #include <cmath>
 
@@ -31,7 +32,7 @@ double difference_from_full_solution(const ResponseRequest& request, const std::
   for (std::size_t c = 0; c < columns.size(); ++c)
     ring.add_load(plan.functionals[static_cast<std::size_t>(columns[c])], 0, 1.0,
                   force.col(static_cast<Eigen::Index>(c)));
-  const Eigen::MatrixXd u = RingSolver(ring, request.material).solve(force);
+  const Eigen::MatrixXd u = testing_support::RingSolver(ring, request.material).solve(force);
   double worst = 0.0;
   for (std::size_t c = 0; c < columns.size(); ++c)
     for (int k = 0; k < mesh.sectors; ++k)

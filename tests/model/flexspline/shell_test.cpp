@@ -3,6 +3,7 @@
 #include "strainwave/model/flexspline/cyclic.hpp"
 #include "strainwave/model/flexspline/ring.hpp"
 #include "tests/model/flexspline/bodies.hpp"
+#include "tests/model/flexspline/ring_solver.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -54,7 +55,8 @@ TEST(Shell, thin_ring_under_two_opposed_loads) {
   const RingPart quarter(mesh, 1);
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3 * quarter.nodes(), 1);
   quarter.add_load(mean(mesh.left), 0, load / 2.0, force.col(0));
-  const Eigen::MatrixXd u = RingSolver(quarter, {.youngs_modulus_mpa = e, .poisson_ratio = 0.0}).solve(force);
+  const Eigen::MatrixXd u =
+      testing_support::RingSolver(quarter, {.youngs_modulus_mpa = e, .poisson_ratio = 0.0}).solve(force);
   const double unit = load * radius * radius * radius / (e * width * t * t * t / 12.0);
   const double alpha = t * t / (12.0 * radius * radius), k1 = 1.0 + 1.4 * alpha, k2 = 1.0 - alpha;
   const nlohmann::json ring = benchmarks()["ring"];

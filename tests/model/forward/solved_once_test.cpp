@@ -55,7 +55,6 @@ TEST(SolvedOnce, EverythingThatIsAskedOfAGearReadsTheSameStages) {
   ASSERT_EQ(model.analyze(gear, solution).status, Status::ok);
   ASSERT_TRUE(model.contact_states(gear).ok());
   ASSERT_TRUE(model.phase_problems(gear).ok());
-  ASSERT_TRUE(model.load_starts(gear).ok());
   ASSERT_TRUE(nominal_mesh(model, gear).ok());
   EXPECT_EQ(cups_solved() - before, 1u);
 }

@@ -246,57 +246,6 @@ TEST(Wedge, SelectionGivesTheSolutionOfAllPointsOfBothFlanks) {
   }
 }
 
-TEST(Wedge, AStartChangesNoResult) {
-  Gear gear = seed_with(2.14);
-  gear.contact.flank_points = 5;
-  gear.contact.face_slices = 3;
-  const Pair pair(gear, MeshingPhase{});
-  const PhaseModel cold = pair.model();
-  ContactSolver solver;
-  const ContactStart nominal = cold.at_torque(7.0, solver)->start;
-  // The start of 7 N·m of this gear, for other loads of a gear whose gaps differ by up to 0.5 µm.
-  Pair other = pair;
-  for (std::vector<LoadedPoint>* side : {&other.drive, &other.coast})
-    for (std::size_t i = 0; i < side->size(); ++i)
-      (*side)[i].backlash_mm += 5e-4 * std::sin(1.7 * static_cast<double>(i));
-  const PhaseModel from_scratch(gear.contact, pair.ring, pair.discs, pair.assembled, other.drive,
-                                other.coast);
-  const PhaseModel started(gear.contact, pair.ring, pair.discs, pair.assembled, other.drive, other.coast,
-                           nominal);
-  for (const double torque_nm : {0.0, 0.3, 5.0, 8.0}) {
-    const PhaseLoad a = from_scratch.at_torque(torque_nm, solver).value();
-    const PhaseLoad b = started.at_torque(torque_nm, solver).value();
-    EXPECT_NEAR(a.rotation_rad, b.rotation_rad, 1e-12 * (1e-3 + std::abs(a.rotation_rad))) << torque_nm;
-    const std::vector<double> force = PhaseModel::all_forces(a);
-    const std::vector<double> again = PhaseModel::all_forces(b);
-    for (std::size_t i = 0; i < force.size(); ++i)
-      EXPECT_NEAR(force[i], again[i], 1e-8) << torque_nm << " " << i;
-  }
-  EXPECT_LE(started.at_torque(7.2, solver)->rounds, from_scratch.at_torque(7.2, solver)->rounds);
-}
-
-TEST(Wedge, AnalysesFromNominalStartsAreThoseFromScratch) {
-  ForwardModel model({.disk_cache = false});
-  Gear gear = seed_with(2.12);
-  gear.contact.flank_points = 5;
-  gear.contact.face_slices = 3;
-  gear.load.torque_nm = {0.5, 7.0};
-  gear.load.phases = 2;
-  const LoadStarts starts = model.load_starts(gear).value();
-  ASSERT_EQ(starts.by_phase.size(), 2U);
-  gear.flank_modification.flexspline.tip_relief_um = 3.0;
-  gear.load.torque_nm = {0.6, 6.5};
-  const ForwardResult cold = model.analyze(gear);
-  const ForwardResult started = model.analyze(gear, Want::load, &starts);
-  for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_NEAR(started.load[k].rotation_rad, cold.load[k].rotation_rad, 1e-14);
-    EXPECT_NEAR(started.load[k].peak_force_n, cold.load[k].peak_force_n, 1e-10);
-    for (std::size_t i = 0; i < cold.load[k].points.force_n.size(); ++i)
-      EXPECT_NEAR(started.load[k].points.force_n[i], cold.load[k].points.force_n[i], 1e-9) << k << " " << i;
-  }
-  EXPECT_NEAR(started.wedge->peak_force_n, cold.wedge->peak_force_n, 1e-9);
-}
-
 TEST(Wedge, AnalysisOfAWedgedGearSaysHowHard) {
   ForwardModel model({.disk_cache = false});
   Gear gear = seed_with(2.1);

@@ -1,7 +1,6 @@
 // Drive and coast flanks in one problem (r of both signs): free gears with play, wedged gears in balance at
 // no torque.
 
-#include "strainwave/model/lcp/derivative.hpp"
 #include "strainwave/model/lcp/march.hpp"
 #include "strainwave/model/lcp/path.hpp"
 #include "tests/model/lcp/problems.hpp"
@@ -246,44 +245,6 @@ TEST(LcpWedge, MarchingEndsOnTheDirectSolution) {
   const ContactState direct = solver.solve_at(problem, 1.0);
   EXPECT_LT((way.last.force - direct.force).cwiseAbs().maxCoeff(), 1e-12 * direct.force.maxCoeff());
   EXPECT_LT(way.torque.front(), 0.0);
-}
-
-TEST(LcpWedge, DerivativesOfTheBalanceConvergeWithOrderTwo) {
-  ContactSolver solver;
-  const ContactProblem problem = both_flanks(9, 13, -0.7, 2);
-  const ContactState rest = solver.solve_torque(problem, 0.0).value();
-  ASSERT_TRUE(rest.biactive.empty());
-  Eigen::Index peak = 0;
-  rest.force.tail(7).maxCoeff(&peak);
-  peak += 2;
-  const ContactSensitivity sensitivity(problem, rest, ContactSensitivity::Held::torque);
-  const ContactDerivative d =
-      sensitivity.of({.force = Eigen::VectorXd::Unit(9, peak), .gap = {}, .rotation = 0.3});
-  const auto functional = [&](const ContactProblem& p) {
-    const ContactState s = solver.solve_torque(p, 0.0).value();
-    return s.force[peak] + 0.3 * s.rotation;
-  };
-  for (int i = 0; i < 9; ++i) {
-    if (!rest.active[static_cast<std::size_t>(i)])
-      continue;
-    double error[2];
-    for (int level = 0; level < 2; ++level) {
-      const double h = level == 0 ? 2e-3 : 1e-3;
-      ContactProblem up = problem, down = problem;
-      up.r[i] += h;
-      down.r[i] -= h;
-      error[level] = std::abs((functional(up) - functional(down)) / (2.0 * h) - d.radius[i]);
-      // q enters linearly on a constant set: central differences are exact to rounding
-      up = down = problem;
-      up.q[i] += h;
-      down.q[i] -= h;
-      EXPECT_NEAR((functional(up) - functional(down)) / (2.0 * h), d.gap[i],
-                  1e-10 * (1.0 + std::abs(d.gap[i])));
-    }
-    if (error[1] > 1e-10) {
-      EXPECT_NEAR(std::log2(error[0] / error[1]), 2.0, 0.1) << i;
-    }
-  }
 }
 
 TEST(LcpWedge, CertificateFindsAPoisonedCoastForce) {

@@ -3,12 +3,12 @@
 // is shared).
 
 #include "strainwave/common/sampling/distribution.hpp"
-#include "strainwave/common/sampling/saltelli_points.hpp"
 #include "strainwave/common/statistics/sobol_indices.hpp"
 #include "strainwave/common/statistics/summary.hpp"
 #include "strainwave/model/lcp/sampled_contact.hpp"
 
 #include "tests/model/lcp/problems.hpp"
+#include "tests/support/saltelli_points.hpp"
 
 #include <gtest/gtest.h>
 
@@ -101,7 +101,7 @@ TEST(ToleranceOracle, MomentsAndQuantilesUnderNoiseOfSingleTeeth) {
 TEST(ToleranceOracle, SobolIndicesOfHarmonicsOfTheBacklash) {
   Oracle oracle;
   constexpr std::uint64_t blocks = 4096;
-  const SaltelliPoints points(SamplingDesign::random, 5, 3, blocks);
+  const testing_support::SaltelliPoints points(SamplingDesign::random, 5, 3, blocks);
   const Quantile normal(Normal{0.0, 1e-3});
   const std::vector<double> phi = oracle.phi();
   std::vector<double> values[2], x(3), error(oracle.teeth());
