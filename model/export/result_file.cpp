@@ -1,62 +1,47 @@
 #include "strainwave/model/export/result_file.hpp"
 
+#include "strainwave/common/files/hdf5.hpp"
 #include "strainwave/model/gear/fields.hpp"
 #include "strainwave/version.hpp"
 
 #include <fmt/format.h>
-#include <hdf5.h>
-#include <hdf5_hl.h>
 
-#include <cerrno>
-#include <system_error>
+#include <limits>
+#include <optional>
 
 namespace strainwave {
 
 namespace {
 
-/// One open group; datasets are written into it with their unit.
+/// A group; datasets are written into it with their unit.
 class Group {
 public:
-  Group(hid_t parent, const std::string& name)
-      : id_(check(H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT))) {}
-  ~Group() { H5Gclose(id_); }
+  explicit Group(const hdf5::Group& root) : group_(&root) {}
+  Group(const Group& parent, const std::string& name)
+      : own_(parent.group_->make_group(name)), group_(&*own_) {}
   Group(const Group&) = delete;
   Group& operator=(const Group&) = delete;
-  hid_t id() const { return id_; }
 
   void put(const char* name, const char* unit, const std::vector<double>& values,
-           std::vector<hsize_t> shape = {}) {
-    if (shape.empty())
-      shape = {values.size()};
-    check(H5LTmake_dataset_double(id_, name, static_cast<int>(shape.size()), shape.data(), values.data()));
-    check(H5LTset_attribute_string(id_, name, "units", unit));
+           const hdf5::Shape& shape) const {
+    group_->put(name, values, shape).set_text("units", unit);
   }
-  void put(const char* name, const char* unit, double value) {
-    check(H5LTmake_dataset_double(id_, name, 0, nullptr, &value));
-    check(H5LTset_attribute_string(id_, name, "units", unit));
+  void put(const char* name, const char* unit, const std::vector<double>& values) const {
+    put(name, unit, values, {values.size()});
   }
-  void put(const char* name, const std::vector<int>& values) {
-    const hsize_t size = values.size();
-    check(H5LTmake_dataset_int(id_, name, 1, &size, values.data()));
-    check(H5LTset_attribute_string(id_, name, "units", "1"));
+  void put(const char* name, const char* unit, double value) const {
+    group_->put_number(name, value).set_text("units", unit);
   }
-
-  template <class T>
-  static T check(T code) {
-    if (code < 0)
-      throw std::system_error(EIO, std::generic_category(), "HDF5 refused to write the result file");
-    return code;
+  void put(const char* name, const std::vector<int>& values) const {
+    group_->put(name, values).set_text("units", "1");
   }
 
 private:
-  hid_t id_;
+  std::optional<hdf5::Group> own_;
+  const hdf5::Group* group_;
 };
 
-void text(hid_t file, const char* name, std::string_view value) {
-  Group::check(H5LTmake_dataset_string(file, name, std::string(value).c_str()));
-}
-
-void put_points(const PointResults& from, hid_t parent) {
+void put_points(const PointResults& from, const Group& parent) {
   if (from.tooth.empty())
     return;
   Group points(parent, "points");
@@ -71,7 +56,7 @@ void put_points(const PointResults& from, hid_t parent) {
   points.put("edge", from.edge);
 }
 
-void put_load(const LoadResult& load, Group& group) {
+void put_load(const LoadResult& load, const Group& group) {
   group.put("rotation", "rad", load.rotation_rad);
   group.put("torque", "N.m", load.torque_nm);
   group.put("coast", "1", load.direction == Direction::coast ? 1.0 : 0.0);
@@ -92,20 +77,20 @@ void put_load(const LoadResult& load, Group& group) {
   group.put("peak_pressure_phase", "1", load.peak_pressure.phase);
   group.put("tangent_stiffness", "N.m/rad", load.tangent_stiffness_nm_per_rad);
   group.put("disc_force", "N", load.disc_force_n);
-  put_points(load.points, group.id());
+  put_points(load.points, group);
   if (const CoastResults& coast = load.coast; !coast.tooth.empty()) {
-    Group side(group.id(), "coast_flank");
+    Group side(group, "coast_flank");
     side.put("tooth", coast.tooth);
     side.put("phi", "deg", coast.phi_deg);
     side.put("force", "N", coast.force_n);
     side.put("peak_force", "N", coast.peak_force_n);
-    put_points(coast.points, side.id());
+    put_points(coast.points, side);
   }
   if (load.transmission_error_arcsec)
     group.put("transmission_error", "arcsec", *load.transmission_error_arcsec);
 }
 
-void put_all(const ForwardResult& result, hid_t file) {
+void put_all(const ForwardResult& result, const Group& file) {
   if (const auto& wg = result.wave_generator) {
     Group group(file, "wave_generator");
     group.put("wrap_angle", "deg", wg->wrap_angle_deg);
@@ -124,7 +109,7 @@ void put_all(const ForwardResult& result, hid_t file) {
     group.put("min", "um", b->min_um);
     group.put("min_phi", "deg", b->min_phi_deg);
     if (const auto& a = b->assembled) {
-      Group map(group.id(), "assembled");
+      Group map(group, "assembled");
       map.put("z", "mm", a->z_mm);
       map.put("phi", "deg", a->phi_deg);
       std::vector<double> flat;
@@ -154,7 +139,7 @@ void put_all(const ForwardResult& result, hid_t file) {
   if (!result.load.empty()) {
     Group loads(file, "load");
     for (std::size_t i = 0; i < result.load.size(); ++i) {
-      Group group(loads.id(), fmt::format("{:04}", i));
+      Group group(loads, fmt::format("{:04}", i));
       put_load(result.load[i], group);
     }
   }
@@ -188,46 +173,80 @@ void put_all(const ForwardResult& result, hid_t file) {
   }
 }
 
+void put_path(const LoadPath& path, const Group& group) {
+  group.put("phase", "1", path.phase);
+  group.put("start_rotation", "rad", path.start_rotation_rad);
+  group.put("start_torque", "N.m", path.start_torque_nm);
+  group.put("start_stiffness", "N.m/rad", path.start_stiffness_nm_per_rad);
+  group.put("end_rotation", "rad", path.end_rotation_rad);
+  group.put("end_torque", "N.m", path.end_torque_nm);
+  std::vector<double> rotation, torque, stiffness, phi, height, z;
+  std::vector<int> wall_joins, wall_leaves, event_of, tooth, coast, joins, whole_tooth;
+  for (std::size_t k = 0; k < path.events.size(); ++k) {
+    const LoadPathEvent& event = path.events[k];
+    rotation.push_back(event.rotation_rad);
+    torque.push_back(event.torque_nm);
+    stiffness.push_back(event.stiffness_nm_per_rad);
+    wall_joins.push_back(event.wall_joins);
+    wall_leaves.push_back(event.wall_leaves);
+    for (const LoadPathChange& change : event.changes) {
+      event_of.push_back(static_cast<int>(k));
+      tooth.push_back(change.point.tooth);
+      phi.push_back(change.point.phi_deg);
+      coast.push_back(change.point.coast);
+      height.push_back(change.point.flank_radius_mm);
+      z.push_back(change.point.z_mm);
+      joins.push_back(change.joins);
+      whole_tooth.push_back(change.whole_tooth);
+    }
+  }
+  const Group events(group, "events");
+  events.put("rotation", "rad", rotation);
+  events.put("torque", "N.m", torque);
+  events.put("stiffness", "N.m/rad", stiffness);
+  events.put("wall_joins", wall_joins);
+  events.put("wall_leaves", wall_leaves);
+  const Group changes(group, "changes");
+  changes.put("event", event_of);
+  changes.put("tooth", tooth);
+  changes.put("phi", "deg", phi);
+  changes.put("coast", coast);
+  changes.put("flank_radius", "mm", height);
+  changes.put("z", "mm", z);
+  changes.put("joins", joins);
+  changes.put("whole_tooth", whole_tooth);
+  std::vector<double> at_torque, at_rotation, direct, exact_rad, exact_nm;
+  for (const LoadOnPath& load : path.loads) {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    at_torque.push_back(load.torque_nm);
+    at_rotation.push_back(load.rotation_rad);
+    direct.push_back(load.direct_difference);
+    exact_rad.push_back(load.exact_minus_path_rad.value_or(none));
+    exact_nm.push_back(load.exact_minus_path_nm.value_or(none));
+  }
+  const Group loads(group, "loads");
+  loads.put("torque", "N.m", at_torque);
+  loads.put("rotation", "rad", at_rotation);
+  loads.put("direct_difference", "1", direct);
+  loads.put("exact_minus_path_rotation", "rad", exact_rad);
+  loads.put("exact_minus_path_torque", "N.m", exact_nm);
+}
+
 } // namespace
 
 void write_result_file(const ForwardResult& result, const std::string& config,
-                       const std::filesystem::path& path) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // errors are reported by exception, not printed
-  const auto refused = [&path](const std::error_code& cause) {
-    return std::system_error(cause, fmt::format("cannot write {}", path.string()));
-  };
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw refused(std::make_error_code(std::errc::is_a_directory));
-  const std::filesystem::path beside = path.string() + ".part";
-  errno = 0;
-  const hid_t file = H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  if (file < 0)
-    throw refused(std::error_code(errno != 0 ? errno : EIO, std::generic_category()));
-  try {
-    text(file, "config", config);
-    text(file, "version", library_version);
-    text(file, "status", status_name(result.status));
-    text(file, "message", result.message);
-    text(file, "fidelity", choice_name(result.fidelity));
+                       const std::filesystem::path& path, const LoadPath* load_path) {
+  hdf5::write_file(path, {"strainwave result", 1}, [&](const hdf5::Group& root) {
+    root.put_text("config", config);
+    root.put_text("version", library_version);
+    root.put_text("status", status_name(result.status));
+    root.put_text("message", result.message);
+    root.put_text("fidelity", choice_name(result.fidelity));
+    const Group file(root);
     put_all(result, file);
-    Group::check(H5Fflush(file, H5F_SCOPE_GLOBAL));
-  } catch (const std::system_error&) {
-    const int cause = errno;
-    H5Fclose(file);
-    std::filesystem::remove(beside, ignored);
-    throw refused(std::error_code(cause != 0 ? cause : EIO, std::generic_category()));
-  }
-  std::error_code error;
-  errno = 0;
-  if (H5Fclose(file) < 0)
-    error = std::error_code(errno != 0 ? errno : EIO, std::generic_category()); // a full disk shows here
-  else
-    std::filesystem::rename(beside, path, error);
-  if (!error)
-    return;
-  std::filesystem::remove(beside, ignored);
-  throw refused(error);
+    if (load_path)
+      put_path(*load_path, Group(file, "path"));
+  });
 }
 
 } // namespace strainwave

@@ -93,9 +93,56 @@ Json load_json(const LoadResult& load) {
   return json;
 }
 
+Json path_point_json(const PathPoint& point) {
+  return {{"tooth", point.tooth},
+          {"phi_deg", point.phi_deg},
+          {"flank", point.coast ? "coast" : "drive"},
+          {"height_mm", point.flank_radius_mm},
+          {"z_mm", point.z_mm}};
+}
+
+Json path_json(const LoadPath& path) {
+  Json json = {{"phase", path.phase}};
+  json["start"] = {{"rotation_rad", path.start_rotation_rad},
+                   {"torque_nm", path.start_torque_nm},
+                   {"stiffness_nm_per_rad", path.start_stiffness_nm_per_rad},
+                   {"carries", Json::array()}};
+  for (const PathPoint& point : path.carries_at_start)
+    json["start"]["carries"].push_back(path_point_json(point));
+  json["events"] = Json::array();
+  for (const LoadPathEvent& event : path.events) {
+    Json changes = Json::array();
+    for (const LoadPathChange& change : event.changes) {
+      Json one = path_point_json(change.point);
+      one["change"] = change.joins ? "joins" : "leaves";
+      one["whole_tooth"] = change.whole_tooth;
+      changes.push_back(std::move(one));
+    }
+    json["events"].push_back({{"rotation_rad", event.rotation_rad},
+                              {"torque_nm", event.torque_nm},
+                              {"stiffness_nm_per_rad", event.stiffness_nm_per_rad},
+                              {"changes", std::move(changes)},
+                              {"wall_joins", event.wall_joins},
+                              {"wall_leaves", event.wall_leaves}});
+  }
+  json["end"] = {{"rotation_rad", path.end_rotation_rad}, {"torque_nm", path.end_torque_nm}};
+  json["loads"] = Json::array();
+  for (const LoadOnPath& load : path.loads) {
+    Json one = {{"torque_nm", load.torque_nm},
+                {"rotation_rad", load.rotation_rad},
+                {"direct_difference", load.direct_difference}};
+    if (load.exact_minus_path_rad)
+      one["exact_minus_path_rad"] = *load.exact_minus_path_rad;
+    if (load.exact_minus_path_nm)
+      one["exact_minus_path_nm"] = *load.exact_minus_path_nm;
+    json["loads"].push_back(std::move(one));
+  }
+  return json;
+}
+
 } // namespace
 
-Json result_json(const ForwardResult& result) {
+Json result_json(const ForwardResult& result, const LoadPath* path) {
   Json json;
   json["gear"] = result.gear;
   json["fidelity"] = choice_name(result.fidelity);
@@ -148,6 +195,8 @@ Json result_json(const ForwardResult& result) {
     for (const LoadResult& load : result.load)
       json["load"].push_back(load_json(load));
   }
+  if (path)
+    json["path"] = path_json(*path);
   if (const auto& w = result.wedge) {
     json["wedge"] = {{"phase", w->phase},
                      {"rotation_rad", w->rotation_rad},
@@ -184,8 +233,8 @@ Json result_json(const ForwardResult& result) {
   return json;
 }
 
-std::string result_json_text(const ForwardResult& result) {
-  return result_json(result).dump(2);
+std::string result_json_text(const ForwardResult& result, const LoadPath* path) {
+  return result_json(result, path).dump(2);
 }
 
 } // namespace strainwave

@@ -9,6 +9,7 @@
 #include "strainwave/model/loading/load_cases.hpp"
 #include "strainwave/model/loading/phase_problem.hpp"
 #include "strainwave/model/meshing/flank_points.hpp"
+#include "strainwave/model/results/load_path.hpp"
 #include "strainwave/model/tooth/backlash.hpp"
 
 #include <chrono>
@@ -72,6 +73,7 @@ public:
   /// After a run() that kept its solution and came to its end.
   ForwardGradient gradient(std::span<const std::string> parameters);
   Outcome<ContactStates> contact_states();
+  Outcome<LoadPath> load_path();
   Outcome<std::vector<PhaseProblem>> phase_problems(bool with_load);
 
 private:

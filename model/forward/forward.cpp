@@ -6,6 +6,7 @@
 #include "strainwave/model/forward/inputs.hpp"
 #include "strainwave/model/gear/fields.hpp"
 #include "strainwave/model/kinematics/rim_strain.hpp"
+#include "strainwave/model/loading/trace_load.hpp"
 #include "strainwave/model/tooth/consistency.hpp"
 
 #include <fmt/format.h>
@@ -92,6 +93,25 @@ Outcome<ContactStates> Analysis::unguarded_contact_states() {
     }
   }
   return result;
+}
+
+Outcome<LoadPath> Analysis::load_path() {
+  try {
+    if (auto failure = stages())
+      return *failure;
+    const auto own = phase_model(0.0);
+    if (!own)
+      return own.failure();
+    const auto assembled = assembly(0.0);
+    if (!assembled)
+      return assembled.failure();
+    const PhaseModel traced(traced_contact(gear_.contact), ring_->compliance, *surface_, *assembled,
+                            (*own)->points(), (*own)->coast_points());
+    const bool exact = gear_.contact.disc_gap == DiscGap::exact && gear_.contact.fidelity != Fidelity::linear;
+    return trace_load(traced, gear_.load, exact ? own->get() : nullptr);
+  } catch (const NotPositiveDefinite& error) {
+    return ill_conditioned(error);
+  }
 }
 
 Outcome<std::vector<PhaseProblem>> Analysis::phase_problems(bool with_load) {
@@ -314,6 +334,10 @@ ForwardModel::~ForwardModel() = default;
 
 ForwardResult ForwardModel::analyze(const Gear& gear, Want want) {
   return Analysis(*state_, gear, want).run();
+}
+
+Outcome<LoadPath> ForwardModel::load_path(const Gear& gear) {
+  return Analysis(*state_, gear, Want::compliance).load_path();
 }
 
 Outcome<std::vector<PhaseProblem>> ForwardModel::phase_problems(const Gear& gear) {
