@@ -213,11 +213,12 @@ void mark_events(const LoadPath& path, std::size_t block, Plot& plot, std::strin
   add("a tooth begins to carry; its number", begin,
       fmt::format("with points linecolor '{}' pointtype 9 pointsize 0.9", figure_colour(2)),
       "a tooth begins to carry");
-  if (begun > 0 && begun <= 24)
-    plot.add(
-        block - 1, "1:2:4",
-        fmt::format("with labels right offset character -0.8,0.4 font ',9' textcolor '{}'", figure_colour(2)),
-        "");
+  if (begun > 0 && begun <= 24) { // by turns above and below the curve: neighbours stand close
+    const std::string label = fmt::format("font ',9' textcolor '{}'", figure_colour(2));
+    plot.add(block - 1, "1:2:4 every 2", "with labels right offset character -0.8,0.4 " + label, "");
+    if (begun > 1)
+      plot.add(block - 1, "1:2:4 every 2::1", "with labels left offset character 0.8,-0.4 " + label, "");
+  }
   add("a tooth ceases to carry; its number", cease,
       fmt::format("with points linecolor '{}' pointtype 11 pointsize 0.9", figure_colour(3)),
       "a tooth ceases to carry");
