@@ -9,9 +9,13 @@
 #include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/gear/fields.hpp"
 #include "strainwave/model/gear_file/gear_file.hpp"
+#include "strainwave/model/results/load_path.hpp"
+
+#include <fmt/format.h>
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace strainwave::app {
@@ -25,14 +29,15 @@ struct AnalyzeOptions {
   std::string only;
   bool json = false;
   bool no_cache = false;
+  bool path = false;
   std::string out;
   std::string plots;
   int threads = 0;
 };
 
 /// Every figure that the result has numbers for; what gnuplot could not draw is a note, not a failure.
-void draw_figures(const ForwardResult& result, Gear gear, Want want, ForwardModel& model,
-                  const std::string& folder) {
+void draw_figures(const ForwardResult& result, const LoadPath* path, Gear gear, Want want,
+                  ForwardModel& model, const std::string& folder) {
   std::vector<Figure> figures = backlash_figures(result);
   if (want != Want::backlash && result.status == Status::ok) {
     if (const auto states = model.contact_states(gear))
@@ -46,7 +51,7 @@ void draw_figures(const ForwardResult& result, Gear gear, Want want, ForwardMode
     gear.load.torque_nm.clear();
     gear.load.rotation_rad = rotations;
     gear.load.phases = 1;
-    figures.push_back(torque_rotation_figure(result, model.analyze(gear)));
+    figures.push_back(torque_rotation_figure(result, model.analyze(gear), path));
   }
   if (figures.empty())
     return;
@@ -65,7 +70,12 @@ void try_places(const AnalyzeOptions& options) {
 }
 
 ExitCode analyze(const AnalyzeOptions& options) {
-  Gear gear = load_gear(options.file).gear;
+  if (options.path && !options.only.empty() && options.only != "load")
+    throw UsageError(fmt::format("--path needs the loads; --only {} stops before them", options.only));
+  const GearDocument document = load_gear(options.file);
+  for (const std::string& warning : document.warnings)
+    report(warning);
+  Gear gear = document.gear;
   if (!options.torque_nm.empty() || !options.rotation_rad.empty()) {
     gear.load.torque_nm.clear();
     gear.load.rotation_rad.clear();
@@ -83,11 +93,26 @@ ExitCode analyze(const AnalyzeOptions& options) {
   const ForwardResult result = model.analyze(gear, want);
   for (const std::string& warning : result.warnings)
     report(warning);
-  print(options.json ? result_json_text(result) + "\n" : result_table(result));
+  std::optional<LoadPath> path;
+  std::string no_path;
+  if (options.path && result.status == Status::ok) {
+    const auto traced = model.load_path(gear);
+    if (traced)
+      path = *traced;
+    else
+      no_path = traced.failure().message;
+  }
+  const LoadPath* const found = path ? &*path : nullptr;
+  print(options.json ? result_json_text(result, found) + "\n"
+                     : result_table(result) + (found ? "\n" + path_table(*found) : ""));
   if (!options.out.empty())
-    write_result_file(result, write_gear(gear), options.out);
+    write_result_file(result, write_gear(gear), options.out, found);
   if (!options.plots.empty())
-    draw_figures(result, gear, want, model, options.plots);
+    draw_figures(result, found, gear, want, model, options.plots);
+  if (!no_path.empty()) {
+    report(options.file + ": no load path: " + no_path);
+    return ExitCode::no_result;
+  }
   if (result.status == Status::ok)
     return ExitCode::done;
   report(options.file + ": " + result.message);
@@ -104,6 +129,7 @@ void add_analyze(CLI::App& app, Command& chosen) {
                   "($STRAINWAVE_CACHE, else $XDG_CACHE_HOME/strainwave, else ~/.cache/strainwave).\n"
                   "Examples:  strainwave analyze mygear.toml\n"
                   "           strainwave analyze mygear.toml --torque-nm 3.5 7 --json\n"
+                  "           strainwave analyze mygear.toml --path --plots figures\n"
                   "           strainwave analyze mygear.toml --only backlash");
   const auto options = std::make_shared<AnalyzeOptions>();
   command->add_option("FILE", options->file, "A gear file (TOML)")->required();
@@ -112,6 +138,9 @@ void add_analyze(CLI::App& app, Command& chosen) {
   command->add_option("--only", options->only, "Stop after this stage: backlash, compliance or load")
       ->check(CLI::IsMember({"backlash", "compliance", "load"}));
   command->add_flag("--json", options->json, "Print one JSON object instead of the table");
+  command->add_flag("--path", options->path,
+                    "Also trace the torque–rotation curve from event to event: when which tooth begins or "
+                    "ceases to carry");
   command->add_option("-o,--out", options->out, "Also write the result to this HDF5 file");
   command->add_option("--plots", options->plots,
                       "Also draw figures into this folder (SVG by gnuplot, with their data)");

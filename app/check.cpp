@@ -19,7 +19,10 @@ ExitCode check(const std::string& file) {
     print(write_study(study));
     gear = study.gear;
   } else {
-    gear = parse_gear(text, file).gear;
+    const GearDocument document = parse_gear(text, file);
+    for (const std::string& warning : document.warnings)
+      report(warning);
+    gear = document.gear;
     print(write_gear(gear));
   }
   // Teeth, wave generator and backlash are computed: a gear without a result says so here as it does in

@@ -128,7 +128,10 @@ ExitCode export_gear(const ExportOptions& options) {
   if (!options.profile.empty() && !options.profile.ends_with(".dxf") && !options.profile.ends_with(".csv"))
     throw UsageError(fmt::format("--profile {}: the name must end in .dxf or .csv", options.profile));
   refuse_idle_options(options);
-  Gear gear = load_gear(options.file).gear;
+  const GearDocument document = load_gear(options.file);
+  for (const std::string& warning : document.warnings)
+    report(warning);
+  Gear gear = document.gear;
   if (!options.torque_nm.empty()) {
     gear.load.rotation_rad.clear();
     gear.load.torque_nm = options.torque_nm;

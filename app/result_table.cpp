@@ -201,4 +201,53 @@ std::string result_table(const ForwardResult& result) {
   return text;
 }
 
+std::string path_table(const LoadPath& path) {
+  std::string text;
+  const Out out(text);
+  int point_events = 0, wall_events = 0;
+  fmt::format_to(
+      out,
+      "Load path       phase {:g}, drive, wall gaps linearised about the assembled cup; straight between "
+      "events\n\n",
+      path.phase);
+  fmt::format_to(out, "  {:>10} {:>10} {:>11}  {}\n  {:>10} {:>10} {:>11}\n", "rotation", "torque",
+                 "stiffness", "teeth (from here on)", "mrad", "N·m", "N·m/rad");
+  const auto line = [&](double rotation_rad, double torque_nm, double stiffness, const std::string& words) {
+    fmt::format_to(out, "  {:>10.5f} {:>9.4f} {:>11.1f}  {}\n", 1e3 * rotation_rad, torque_nm, stiffness,
+                   words);
+  };
+  line(path.start_rotation_rad, path.start_torque_nm, path.start_stiffness_nm_per_rad,
+       path.carries_at_start.empty()
+           ? std::string("rest, no tooth carries")
+           : fmt::format("rest, {} points of drive and coast flanks carry", path.carries_at_start.size()));
+  for (const LoadPathEvent& event : path.events) {
+    std::string words;
+    for (const LoadPathChange& change : event.changes)
+      if (change.whole_tooth)
+        words += fmt::format("{}tooth {} at {:.2f}°{} {}", words.empty() ? "" : ", ", change.point.tooth,
+                             change.point.phi_deg, change.point.coast ? " (coast flank)" : "",
+                             change.joins ? "joins" : "leaves");
+    if (!words.empty())
+      line(event.rotation_rad, event.torque_nm, event.stiffness_nm_per_rad, words);
+    else
+      ++(event.changes.empty() ? wall_events : point_events);
+  }
+  line(path.end_rotation_rad, path.end_torque_nm,
+       path.events.empty() ? path.start_stiffness_nm_per_rad : path.events.back().stiffness_nm_per_rad,
+       "end");
+  fmt::format_to(out,
+                 "\n  {} events in all; not shown: {} of further points of a tooth, {} of the wall alone\n",
+                 path.events.size(), point_events, wall_events);
+  for (const LoadOnPath& load : path.loads) {
+    fmt::format_to(out, "  at {:.4g} N·m, {:.5f} mrad: the direct solution differs by {:.1e} of it",
+                   load.torque_nm, 1e3 * load.rotation_rad, load.direct_difference);
+    if (load.exact_minus_path_rad)
+      fmt::format_to(out, "; the exact disc gap turns it by {:+.2e} mrad", 1e3 * *load.exact_minus_path_rad);
+    if (load.exact_minus_path_nm)
+      fmt::format_to(out, "; the exact disc gap changes it by {:+.2e} N·m", *load.exact_minus_path_nm);
+    fmt::format_to(out, "\n");
+  }
+  return text;
+}
+
 } // namespace strainwave::app

@@ -7,6 +7,7 @@
 #include "strainwave/model/loading/phase_model.hpp"
 #include "strainwave/model/meshing/flank_points.hpp"
 #include "strainwave/model/meshing/gear_surface.hpp"
+#include "strainwave/model/results/load_path.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -146,6 +147,41 @@ void contact_alone(benchmark::State& state) {
   state.counters["rounds"] = rounds;
 }
 BENCHMARK(contact_alone)->Unit(benchmark::kMillisecond);
+
+// From event to event to 7 N·m: direct solutions for comparison, exact disc gap and all (finite elements and
+// assembly known).
+void load_path_of(benchmark::State& state, const Gear& gear) {
+  (void)warm_model().load_path(gear).value();
+  LoadPath path;
+  for (auto _ : state)
+    path = warm_model().load_path(gear).value();
+  state.counters["events"] = static_cast<double>(path.events.size());
+  state.counters["selections"] = path.selections;
+}
+
+void load_path_one_point(benchmark::State& state) {
+  load_path_of(state, one_load(7.0));
+}
+BENCHMARK(load_path_one_point)->Unit(benchmark::kMillisecond);
+
+void load_path_linear(benchmark::State& state) {
+  Gear gear = one_load(7.0);
+  gear.contact.fidelity = Fidelity::linear;
+  load_path_of(state, gear);
+}
+BENCHMARK(load_path_linear)->Unit(benchmark::kMillisecond);
+
+// studies/gallery/seed_coned.toml
+void load_path_coned_9x9(benchmark::State& state) {
+  Gear gear = one_load(7.0);
+  gear.circular_spline.profile_shift = 2.4132;
+  gear.contact.window_deg = {-60.0, 51.0};
+  gear.contact.flank_points = 9;
+  gear.contact.face_slices = 9;
+  gear.contact.gaps = GapModel::assembled;
+  load_path_of(state, gear);
+}
+BENCHMARK(load_path_coned_9x9)->Unit(benchmark::kMillisecond);
 
 void backlash_only(benchmark::State& state) {
   Gear gear = one_load(7.0);

@@ -177,7 +177,56 @@ std::vector<double> sweep_rotations_rad(const ForwardResult& result, int count) 
   return rotations;
 }
 
-Figure torque_rotation_figure(const ForwardResult& result, const ForwardResult& sweep) {
+namespace {
+
+/// Three blocks: teeth that begin to carry, teeth that cease to, all other events. Numbers of the teeth
+/// beside their marks, where there are few.
+void mark_events(const LoadPath& path, std::size_t block, Plot& plot, std::string& data) {
+  auto out = std::back_inserter(data);
+  std::string begin, cease, other;
+  int begun = 0;
+  for (const LoadPathEvent& event : path.events) {
+    const std::string place = fmt::format("{} {} {}", number(1e3 * event.rotation_rad),
+                                          number(event.torque_nm), number(event.stiffness_nm_per_rad));
+    std::string teeth[2]; // that cease, that begin
+    for (const LoadPathChange& change : event.changes)
+      if (change.whole_tooth)
+        teeth[change.joins] +=
+            fmt::format("{}{}", teeth[change.joins].empty() ? "" : ",", change.point.tooth);
+    if (!teeth[1].empty())
+      begin += fmt::format("{} {}\n", place, teeth[1]), ++begun;
+    if (!teeth[0].empty())
+      cease += fmt::format("{} {}\n", place, teeth[0]);
+    if (teeth[0].empty() && teeth[1].empty())
+      other += place + "\n";
+  }
+  const auto add = [&](const char* head, const std::string& rows, const std::string& style,
+                       const char* title) {
+    fmt::format_to(out, "\n\n# {}\n# rotation [mrad]  torque [N.m]  stiffness after it [N.m/rad]\n{}", head,
+                   rows.empty() ? "nan nan nan nan\n" : rows);
+    if (!rows.empty())
+      plot.add(block, "1:2", style, title);
+    ++block;
+  };
+  add("other events of the path: a further point of a tooth, a place of the wall", other,
+      "with points linecolor '#707070' pointtype 2 pointsize 0.35", "another point or the wall changes");
+  add("a tooth begins to carry; its number", begin,
+      fmt::format("with points linecolor '{}' pointtype 9 pointsize 0.9", figure_colour(2)),
+      "a tooth begins to carry");
+  if (begun > 0 && begun <= 24) { // by turns above and below the curve: neighbours stand close
+    const std::string label = fmt::format("font ',9' textcolor '{}'", figure_colour(2));
+    plot.add(block - 1, "1:2:4 every 2", "with labels right offset character -0.8,0.4 " + label, "");
+    if (begun > 1)
+      plot.add(block - 1, "1:2:4 every 2::1", "with labels left offset character 0.8,-0.4 " + label, "");
+  }
+  add("a tooth ceases to carry; its number", cease,
+      fmt::format("with points linecolor '{}' pointtype 11 pointsize 0.9", figure_colour(3)),
+      "a tooth ceases to carry");
+}
+
+} // namespace
+
+Figure torque_rotation_figure(const ForwardResult& result, const ForwardResult& sweep, const LoadPath* path) {
   Figure figure{.name = "torque-rotation", .data = {}, .drawing = {}};
   auto out = std::back_inserter(figure.data);
   fmt::format_to(out,
@@ -211,6 +260,8 @@ Figure torque_rotation_figure(const ForwardResult& result, const ForwardResult& 
   plot.add(block, "1:2",
            fmt::format("with points linecolor '{}' pointtype 7 pointsize 0.7", figure_colour(1)),
            "loads of the gear");
+  if (path)
+    mark_events(*path, block + 1, plot, figure.data);
   figure.drawing = fmt::format(
       "set xlabel 'rotation of the circular spline [mrad]'\nset ylabel 'torque, both lobes [N·m]'\n"
       "set xrange [0:*]\nset yrange [0:*]\nset key top left reverse Left\n{}",

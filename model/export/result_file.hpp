@@ -6,7 +6,10 @@
 //   /config /gear /fidelity /version /status /message (texts)
 //   /wave_generator/*  /backlash/*  /assembly/*  /compliance/{tooth, matrix}  /stiffness/*  /certificate/*
 //   /load/0000/{rotation, torque, tooth, phi, force, loaded_backlash, …}  in the order of the gear's loads
+//   /path/{start_rotation, …, events/{rotation, torque, stiffness, …}, changes/{event, tooth, joins, …},
+//   loads/*}
 
+#include "strainwave/model/results/load_path.hpp"
 #include "strainwave/model/results/result.hpp"
 
 #include <filesystem>
@@ -16,6 +19,6 @@ namespace strainwave {
 
 /// Throws std::system_error with the cause when the file cannot be written.
 void write_result_file(const ForwardResult& result, const std::string& config,
-                       const std::filesystem::path& path);
+                       const std::filesystem::path& path, const LoadPath* load_path = nullptr);
 
 } // namespace strainwave

@@ -4,6 +4,7 @@
 #include "strainwave/model/forward/run.hpp"
 #include "strainwave/model/loading/contact_forces.hpp"
 #include "strainwave/model/loading/phase_problem.hpp"
+#include "strainwave/model/loading/trace_load.hpp"
 
 #include <fmt/format.h>
 
@@ -60,6 +61,19 @@ Outcome<ContactStates> states_of(const Gear& gear, const Run& run) {
   return result;
 }
 
+Outcome<LoadPath> path_of(const Gear& gear, const Run& run) {
+  const auto own = run.meshed->phase_model(MeshingPhase{});
+  if (!own)
+    return own.failure();
+  const auto assembled = run.cup->assembly(MeshingPhase{});
+  if (!assembled)
+    return assembled.failure();
+  const PhaseModel traced(traced_contact(gear.contact), run.cup->ring().compliance, run.cup->surface(),
+                          *assembled, (*own)->points(), (*own)->coast_points());
+  const bool exact = gear.contact.disc_gap == DiscGap::exact && gear.contact.fidelity != Fidelity::linear;
+  return trace_load(traced, gear.load, exact ? own->get() : nullptr);
+}
+
 Outcome<std::vector<PhaseProblem>> problems_of(const Gear& gear, const MeshedGear& meshed, bool with_load) {
   std::vector<PhaseProblem> problems;
   for (int j = 0; j < gear.load.phases; ++j) {
@@ -88,6 +102,10 @@ ForwardModel::ForwardModel(ForwardOptions options) : stages_(std::make_shared<Sh
 
 ForwardResult ForwardModel::analyze(const Gear& gear, Want want) const {
   return complete_run(stages_, gear, {.want = want}).result;
+}
+
+Outcome<LoadPath> ForwardModel::load_path(const Gear& gear) const {
+  return of_meshed<LoadPath>(stages_, gear, [&](const Run& run) { return path_of(gear, run); });
 }
 
 Outcome<std::vector<PhaseProblem>> ForwardModel::phase_problems(const Gear& gear) const {

@@ -21,6 +21,7 @@ namespace strainwave {
 
 struct ContactStates;  // contact_forces.hpp
 class ForwardSolution; // gradient.hpp
+struct LoadPath;       // load_path.hpp
 struct PhaseProblem;   // phase_problem.hpp
 class SharedStages;    // shared_stages.hpp
 
@@ -47,6 +48,10 @@ public:
   /// The contact forces of the assembled cup and of every load of the gear, at phase 0 in the drive
   /// direction; reuses what analyses have computed.
   Outcome<ContactStates> contact_states(const Gear& gear) const;
+
+  /// The torque–rotation curve from rest to the gear's largest load with every event on it, at phase 0 in the
+  /// drive direction (load_path.hpp), each load beside its direct solution and that with the exact disc gap.
+  Outcome<LoadPath> load_path(const Gear& gear) const;
 
   /// The contact problem of all drive points at every phase of the gear's [load].
   Outcome<std::vector<PhaseProblem>> phase_problems(const Gear& gear) const;

@@ -17,7 +17,12 @@ constexpr std::array<std::string_view, 6> shape_names{"two_disc", "two_disc_exac
                                                       "ellipse",  "cosine",         "table"};
 constexpr std::array<std::string_view, 3> fidelity_names{"unilateral", "linear", "nonlinear"};
 constexpr std::array<std::string_view, 2> assembly_names{"small_displacement", "nonlinear"};
-constexpr std::array<std::string_view, 2> method_names{"event_path", "stepping"};
+constexpr std::array<std::string_view, 2> method_names{"direct", "stepping"};
+constexpr std::array<FormerChoice, 1> former_method_names{
+    {{"event_path", "direct",
+      "every load is solved directly at its torque or rotation; `analyze --path` gives the path from event "
+      "to "
+      "event"}}};
 constexpr std::array<std::string_view, 2> force_direction_names{"circumferential", "flank_normal"};
 constexpr std::array<std::string_view, 2> disc_gap_names{"exact", "linearised"};
 constexpr std::array<std::string_view, 2> gaps_names{"kinematic", "assembled"};
@@ -111,6 +116,11 @@ Field field(std::string_view path, std::string_view unit, Range range, std::stri
 
 Field required(Field row) {
   row.required = true;
+  return row;
+}
+
+Field formerly(Field row, std::span<const FormerChoice> names) {
+  row.former_choices = names;
   return row;
 }
 
@@ -268,10 +278,11 @@ void add_calculation(std::vector<Field>& rows) {
                                "large deformation"));
   rows.push_back(
       field<C, &Con::assembly>("contact.assembly", "", any, "how the assembly on the discs is solved"));
-  rows.push_back(
+  rows.push_back(formerly(
       field<C, &Con::method>("contact.method", "", any,
-                             "event_path: exact path from event to event; stepping: marching with step "
-                             "halving"));
+                             "direct: every load solved exactly, at its torque or rotation; stepping: "
+                             "the rotation marched with step halving"),
+      former_method_names));
   rows.push_back(field<C, &Con::force_direction>("contact.force_direction", "", any,
                                                  "direction of the force on a flank; flank_normal adds its "
                                                  "radial part; absent: circumferential with one contact "

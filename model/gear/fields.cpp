@@ -212,6 +212,26 @@ std::optional<Complaint> find_complaint(const Field& field, const FieldValue& va
   return std::nullopt;
 }
 
+const FormerChoice* find_former_choice(const Field& field, const FieldValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  if (!text)
+    return nullptr;
+  const auto found = std::find_if(field.former_choices.begin(), field.former_choices.end(),
+                                  [&](const FormerChoice& former) { return former.name == *text; });
+  return found == field.former_choices.end() ? nullptr : &*found;
+}
+
+FieldValue present_value(const Field& field, FieldValue value) {
+  if (const FormerChoice* former = find_former_choice(field, value))
+    return std::string(former->now);
+  return value;
+}
+
+std::string renamed_sentence(const FormerChoice& former) {
+  return "\"" + std::string(former.name) + "\" is called \"" + std::string(former.now) +
+         "\" now: " + std::string(former.sentence);
+}
+
 std::string unknown_key_sentence(std::string_view path, std::string* nearest) {
   std::vector<std::string_view> siblings, all;
   const std::size_t dot = path.rfind('.');
@@ -262,6 +282,7 @@ void set_value(Gear& gear, std::string_view path, FieldValue value) {
     throw FieldError(std::string(path), unknown_key_sentence(path));
   if (const int* whole = std::get_if<int>(&value); whole && field->kind == FieldKind::number)
     value = static_cast<double>(*whole);
+  value = present_value(*field, std::move(value));
   if (const auto complaint = find_complaint(*field, value))
     throw FieldError(std::string(path), complaint->sentence);
   field->write(gear, value);

@@ -41,6 +41,13 @@ struct Range {
   }
 };
 
+/// A name that a choice had in files of earlier versions; it is still read.
+struct FormerChoice {
+  std::string_view name;     ///< "event_path"
+  std::string_view now;      ///< "direct"
+  std::string_view sentence; ///< what is done, without a full stop
+};
+
 struct Field {
   std::string_view path; ///< tables joined by dots, then the key
   FieldKind kind = FieldKind::number;
@@ -50,6 +57,7 @@ struct Field {
   Range range;                 ///< of a number, an integer, or each number of a list
   std::size_t list_length = 0; ///< lists: the only length besides empty, ascending; 0 for any
   std::span<const std::string_view> choices;
+  std::span<const FormerChoice> former_choices;
   std::string_view sentence; ///< what it is, without a full stop
   FieldValue (*read)(const Gear&) = nullptr;
   void (*write)(Gear&, const FieldValue&) = nullptr; ///< unchecked; the alternative must fit the kind
@@ -85,6 +93,13 @@ template <class Enum>
 std::string_view choice_name(Enum value) {
   return choice_names(value)[static_cast<std::size_t>(value)];
 }
+
+/// The former choice that a value is; null for every other value.
+const FormerChoice* find_former_choice(const Field& field, const FieldValue& value);
+/// A former choice becomes the present one; every other value stays.
+FieldValue present_value(const Field& field, FieldValue value);
+/// "is called \"direct\" now: every load is solved directly …".
+std::string renamed_sentence(const FormerChoice& former);
 
 /// What a value of this field has to be, as words: "a number in mm, above 0 and at most 100".
 std::string expectation(const Field& field);

@@ -79,7 +79,7 @@ struct FlankModifications {
 
 enum class Fidelity { unilateral, linear, nonlinear };
 enum class AssemblyModel { small_displacement, nonlinear };
-enum class LoadMethod { event_path, stepping };
+enum class LoadMethod { direct, stepping };
 enum class ForceDirection { circumferential, flank_normal };
 enum class DiscGap { exact, linearised };
 enum class GapModel { kinematic, assembled };
@@ -87,7 +87,7 @@ enum class GapModel { kinematic, assembled };
 struct Contact {
   Fidelity fidelity = Fidelity::unilateral;
   AssemblyModel assembly = AssemblyModel::small_displacement;
-  LoadMethod method = LoadMethod::event_path;
+  LoadMethod method = LoadMethod::direct;
   std::optional<ForceDirection> force_direction; ///< absent: direction_of_force() decides
   std::vector<double> window_deg; ///< material angles [lo, hi], ends included; empty: every tooth
   int lobes = 2;

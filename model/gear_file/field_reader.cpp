@@ -160,6 +160,7 @@ std::optional<FieldValue> read_value(const Field& field, std::string_view key, c
   std::optional<FieldValue> value = read_kind(field, key, node, faults);
   if (!value)
     return std::nullopt;
+  value = present_value(field, std::move(*value));
   const auto complaint = find_complaint(field, *value);
   if (!complaint)
     return value;

@@ -34,7 +34,8 @@ private:
   void read_table(const toml::table& table, const std::string& table_path) {
     for (const auto& [key, node] : table) {
       const std::string path = below(table_path, key.str());
-      if (find_field(path)) {
+      if (const Field* field = find_field(path)) {
+        warn_of_former_name(*field, node);
         document_.places.emplace(path, place_of(key));
         apply_override(document_.gear, path, node, place_of(key), folder_, faults_);
       } else if (find_table(path)) {
@@ -51,6 +52,16 @@ private:
         complain_about_unknown(path, key, node);
       }
     }
+  }
+
+  void warn_of_former_name(const Field& field, const toml::node& node) {
+    const auto* text = node.as_string();
+    const FormerChoice* former = text ? find_former_choice(field, FieldValue(text->get())) : nullptr;
+    if (!former)
+      return;
+    const Place place = place_of(node);
+    document_.warnings.push_back(fmt::format("{}:{}:{}: {}: {}", document_.file, place.line, place.column,
+                                             field.path, renamed_sentence(*former)));
   }
 
   void complain_about_unknown(const std::string& path, const toml::key& key, const toml::node& node) {

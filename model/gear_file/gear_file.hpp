@@ -11,6 +11,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace strainwave {
 
@@ -18,6 +19,9 @@ struct GearDocument {
   Gear gear;
   std::string file;
   std::map<std::string, Place, std::less<>> places; ///< of the keys that the file gives, by path
+
+  /// One sentence with its place for each value by a former name.
+  std::vector<std::string> warnings;
 
   /// "seed.toml:12:1" for a key of the file, "seed.toml" for one that has its default.
   std::string where(std::string_view path) const;

@@ -164,7 +164,7 @@ private:
       const double leverage = 1e-3 * gear_.flexspline.tip_radius_mm * load->certificate.force_scale;
       const double scale = std::max(std::abs(asked.value), leverage);
       const double error = std::abs(load->torque_nm - asked.value);
-      if (gear_.contact.method == LoadMethod::event_path)
+      if (gear_.contact.method == LoadMethod::direct)
         raise(result_.certificate->equilibrium, scale > 0.0 ? error / scale : error);
     }
     return load;

@@ -52,7 +52,7 @@ PhaseModel::PhaseModel(const Contact& contact, const RingCompliance& ring,
       drive_(std::move(points)), coast_(std::move(coast)), points_(drive_) {
   points_.insert(points_.end(), coast_.begin(), coast_.end());
   functionals_ = tooth_functionals(ring_, points_);
-  std::vector<int> index = first_selection();
+  std::vector<int> index = first_points();
   if (contact_.fidelity != Fidelity::linear) { // first guess of the wall's set, from the assembly alone
     start_set_.assign(index.size(), 0);
     start_set_.insert(start_set_.end(), assembled_->active.begin(), assembled_->active.end());
@@ -112,7 +112,7 @@ std::vector<int> PhaseModel::least_of_tooth_slices(bool coast) const {
   return index;
 }
 
-std::vector<int> PhaseModel::first_selection() const {
+std::vector<int> PhaseModel::first_points() const {
   std::vector<int> index = least_of_tooth_slices(false);
   if (index.size() < drive_.size()) {
     std::stable_sort(index.begin(), index.end(), [&](int a, int b) {
@@ -157,7 +157,7 @@ Outcome<PhaseLoad> PhaseModel::solve(Control control, double value, ContactSolve
     std::vector<double> gap_um(points_.size(), 0.0);
     // every point's gap from the forces: closed ones of the selection check the solver, the others must not
     // penetrate
-    const Eigen::VectorXd gap = gaps(*selection, *solved);
+    const Eigen::VectorXd gap = gaps(*selection, solved->state, solved->wall_force);
     std::vector<std::uint8_t> inside(points_.size(), 0);
     for (std::size_t k = 0; k < selection->index.size(); ++k) {
       const auto i = static_cast<std::size_t>(selection->index[k]);
@@ -226,8 +226,7 @@ Outcome<PhaseModel::Solved> PhaseModel::solve_selection(const Selection& selecti
     load.certificate = certify(problem, solved.state);
   } else if (contact_.disc_gap == DiscGap::linearised || !exact) {
     load.certificate = certify(problem, solved.state);
-    const Eigen::VectorXd wall = solved.state.force.tail(assembled_->force_n.size());
-    solved.wall_force = assembled_->normal.array().colwise() * wall.array();
+    solved.wall_force = linearised_wall_force(solved.state);
   } else {
     auto corrected =
         correct_to_exact_gap(ring_, surface_, *assembled_, selection.load, solved.state, control, solver);
@@ -258,18 +257,29 @@ Outcome<PhaseModel::Solved> PhaseModel::solve_selection(const Selection& selecti
   return solved;
 }
 
-Eigen::VectorXd PhaseModel::gaps(const Selection& selection, const Solved& solved) const {
-  const Eigen::VectorXd force = solved.state.force.head(selection.load.point_count);
+Eigen::MatrixX2d PhaseModel::linearised_wall_force(const ContactState& state) const {
+  const Eigen::VectorXd wall = state.force.tail(assembled_->force_n.size());
+  return assembled_->normal.array().colwise() * wall.array();
+}
+
+Eigen::VectorXd PhaseModel::gaps(const Selection& selection, const ContactState& state) const {
+  return gaps(selection, state,
+              contact_.fidelity == Fidelity::linear ? Eigen::MatrixX2d() : linearised_wall_force(state));
+}
+
+Eigen::VectorXd PhaseModel::gaps(const Selection& selection, const ContactState& state,
+                                 const Eigen::MatrixX2d& wall_force) const {
+  const Eigen::VectorXd force = state.force.head(selection.load.point_count);
   // Wall forces beyond those of the assembly; with the wall frozen: the reaction that keeps it where it
   // stands.
   const Eigen::MatrixX2d change = contact_.fidelity == Fidelity::linear
                                       ? frozen_reaction(ring_, *assembled_, selection.load.points, force)
-                                      : Eigen::MatrixX2d(solved.wall_force - assembled_->force_components());
+                                      : Eigen::MatrixX2d(wall_force - assembled_->force_components());
   Eigen::VectorXd gap = ring_.tooth_displacement(functionals_, selection.load.points, force) -
                         ring_.tooth_displacement(functionals_, assembled_->stations, change);
   for (Eigen::Index i = 0; i < gap.size(); ++i) {
     const LoadedPoint& point = points_[static_cast<std::size_t>(i)];
-    const double turned = (point.coast ? -1.0 : 1.0) * point.contact_radius_mm * solved.state.rotation;
+    const double turned = (point.coast ? -1.0 : 1.0) * point.contact_radius_mm * state.rotation;
     gap(i) += std::cos(point.pressure_angle_rad) * (point.backlash_mm - turned);
   }
   return gap;

@@ -71,13 +71,19 @@ public:
   Outcome<PhaseLoad> at_torque(double torque_nm, ContactSolver& solver) const;
   Outcome<PhaseLoad> at_rotation(double rotation_rad, ContactSolver& solver) const;
 
-private:
   /// The points in play and their LCP.
   struct Selection {
-    std::vector<int> index; ///< into points_, ascending
+    std::vector<int> index; ///< into all_points(), ascending
     std::vector<LoadedPoint> points;
     LoadProblem load;
   };
+  Selection select(std::vector<int> index) const;
+  /// That every load starts with.
+  const Selection& first_selection() const { return first_; }
+  /// Gap along F of all points from a state of a selection's LCP (wall gaps linearised), mm.
+  Eigen::VectorXd gaps(const Selection& selection, const ContactState& state) const;
+
+private:
   /// A solved selection; forces of its points, components of the wall forces (unilateral).
   struct Solved {
     ContactState state;
@@ -85,14 +91,16 @@ private:
     PhaseLoad load;
   };
 
-  Selection select(std::vector<int> index) const;
-  std::vector<int> first_selection() const;
+  std::vector<int> first_points() const;
   std::vector<int> least_of_tooth_slices(bool coast) const;
   Outcome<PhaseLoad> solve(Control control, double value, ContactSolver& solver) const;
   Outcome<Solved> solve_selection(const Selection& selection, Control control, double value,
                                   const ActiveSet& warm, bool exact, ContactSolver& solver) const;
-  /// Gap along F of all points from the forces of a solved selection, mm.
-  Eigen::VectorXd gaps(const Selection& selection, const Solved& solved) const;
+  /// Along the assembly's normals, fidelity unilateral.
+  Eigen::MatrixX2d linearised_wall_force(const ContactState& state) const;
+  /// The same with the wall forces given (unused with the wall frozen).
+  Eigen::VectorXd gaps(const Selection& selection, const ContactState& state,
+                       const Eigen::MatrixX2d& wall_force) const;
 
   Contact contact_;
   const RingCompliance& ring_;

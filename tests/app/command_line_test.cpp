@@ -88,6 +88,18 @@ std::string seed_with(const std::string& before, const std::string& after) {
   return text.replace(text.find(before), before.size(), after);
 }
 
+TEST_F(CommandLine, CheckOfAFormerNameSaysWhatIsDoneAndPrintsTheNewOne) {
+  write("gear.toml", seed_with("method = \"direct\"", "method = \"event_path\""));
+  const End end = run("check gear.toml");
+  EXPECT_EQ(end.code, 0);
+  EXPECT_NE(
+      end.err.find("contact.method: \"event_path\" is called \"direct\" now: every load is solved directly"),
+      std::string::npos)
+      << end.err;
+  EXPECT_NE(end.out.find("method = \"direct\""), std::string::npos);
+  EXPECT_EQ(end.out.find("event_path"), std::string::npos);
+}
+
 TEST_F(CommandLine, CheckOfAGearThatContradictsItselfEndsWith3) {
   write("gear.toml", seed_with("boss_radius_mm = 5.0", "boss_radius_mm = 14.0"));
   const End end = run("check gear.toml");

@@ -214,6 +214,28 @@ TEST_F(Export, analyze_tries_its_places_before_it_computes) {
     EXPECT_NE(entry.path().extension(), ".part");
 }
 
+TEST_F(Export, analyze_path_prints_every_tooth_that_joins_and_agrees_with_the_direct_solution) {
+  const End plain = run("analyze gear.toml");
+  const End end = run("analyze gear.toml --path");
+  ASSERT_EQ(end.code, 0) << end.err;
+  EXPECT_EQ(plain.out.find("Load path"), std::string::npos);
+  EXPECT_NE(end.out.find("Load path       phase 0, drive, wall gaps linearised about the assembled cup"),
+            std::string::npos)
+      << end.out;
+  EXPECT_NE(end.out.find("rest, no tooth carries"), std::string::npos) << end.out;
+  EXPECT_NE(end.out.find("joins"), std::string::npos) << end.out;
+  EXPECT_NE(end.out.find("at 7 N·m"), std::string::npos) << end.out;
+  EXPECT_NE(end.out.find("the exact disc gap turns it by"), std::string::npos) << end.out;
+  const End json = run("analyze gear.toml --path --json -o result.h5");
+  EXPECT_EQ(json.code, 0);
+  EXPECT_NE(json.out.find("\"path\": {"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "result.h5"));
+  const End early = run("analyze gear.toml --path --only backlash");
+  EXPECT_EQ(early.code, 2);
+  EXPECT_EQ(early.out, "");
+  EXPECT_NE(early.err.find("--path needs the loads"), std::string::npos) << early.err;
+}
+
 TEST_F(Export, analyze_draws_plots_or_says_why_not) {
   const End without = run("analyze gear.toml --plots plain", "PATH=/nonexistent");
   EXPECT_EQ(without.code, 0) << without.err;

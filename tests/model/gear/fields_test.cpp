@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -186,6 +187,22 @@ TEST(Fields, ChoicesFollowTheEnumerators) {
   EXPECT_EQ(choice_name(DiscGap::linearised), "linearised");
   EXPECT_EQ(choice_name(GapModel::assembled), "assembled");
   EXPECT_EQ(choice_name(Direction::both), "both");
+}
+
+TEST(Fields, FormerChoicesAreTakenForThePresentOnes) {
+  int count = 0;
+  for (const Field& field : gear_fields())
+    for (const FormerChoice& former : field.former_choices) {
+      ++count;
+      EXPECT_EQ(std::find(field.choices.begin(), field.choices.end(), former.name), field.choices.end());
+      Gear gear;
+      set_value(gear, field.path, std::string(former.name));
+      EXPECT_EQ(field.read(gear), FieldValue(std::string(former.now)));
+    }
+  EXPECT_EQ(count, 1);
+  Gear gear;
+  EXPECT_THROW(set_value(gear, "contact.fidelity", std::string("event_path")),
+               FieldError); // of one key alone
 }
 
 TEST(Fields, UnknownPathNamesTheNearest) {

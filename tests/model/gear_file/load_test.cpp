@@ -68,6 +68,18 @@ TEST(GearFileLoad, KeysThatAreLeftOutHaveTheirDefaults) {
   EXPECT_TRUE(gear.load.torque_nm.empty());
 }
 
+TEST(GearFileLoad, AFormerNameIsReadAndSaidWhatItMeansNow) {
+  const std::string text = edited(file_text(seed_path), "\"direct\"", "\"event_path\"");
+  const GearDocument document = parse_gear(text, "gear.toml");
+  EXPECT_EQ(document.gear.contact.method, LoadMethod::direct);
+  EXPECT_EQ(canonical_bits(document.gear), canonical_bits(seed_gear()));
+  ASSERT_EQ(document.warnings.size(), 1U);
+  EXPECT_EQ(document.warnings[0],
+            "gear.toml:75:10: contact.method: \"event_path\" is called \"direct\" now: every load is solved "
+            "directly at its torque or rotation; `analyze --path` gives the path from event to event");
+  EXPECT_TRUE(parse_gear(file_text(seed_path), "gear.toml").warnings.empty());
+}
+
 TEST(GearFileLoad, PlacesOfKeysAreKept) {
   const GearDocument document = parse_gear("# one\n" + file_text(seed_path), "gear.toml");
   EXPECT_EQ(document.where("flexspline.module_mm"), "gear.toml:14:1");
