@@ -2,6 +2,7 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "strainwave/model/gear_file/gear_schema.hpp"
+#include "strainwave/studies/commands/kinds.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -20,9 +21,9 @@ void add_schema(CLI::App& app, Command& chosen) {
   command->callback([&chosen, as_page, of_studies] {
     chosen = [as_page, of_studies] {
       if (*as_page)
-        print(*of_studies ? study_reference_page() : reference_page());
+        print(*of_studies ? study_reference_page(study_kinds()) : reference_page());
       else
-        print((*of_studies ? study_json_schema() : json_schema()).dump(2) + "\n");
+        print((*of_studies ? study_json_schema(study_kinds()) : json_schema()).dump(2) + "\n");
       return ExitCode::done;
     };
   });

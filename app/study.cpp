@@ -4,7 +4,6 @@
 #include "app/output.hpp"
 #include "app/stop_request.hpp"
 #include "strainwave/studies/commands/kinds.hpp"
-#include "strainwave/studies/file/study_gear.hpp"
 #include "strainwave/studies/search/optimisation.hpp"
 
 #include <memory>
@@ -17,15 +16,14 @@ ExitCode run(const StudyOptions& options) {
   const StopRequest stop(options.time_limit_s);
   catch_stop_signals();
   const StopGuard guard(stop);
-  const StudyFile study = load_study(options.file, options.reduced, study_vocabulary());
-  if (!is_sampled(study.kind) && !options.shard.empty())
-    throw UsageError(
-        "--shard is for studies whose points are known in advance (sweep, monte_carlo without stop, "
-        "sensitivity); a search chooses every point by the ones before it");
+  const StudyFile study = load_study(options.file, study_kinds(), options.reduced);
+  const RowKind* rows = row_kind(study);
+  if (!rows && !options.shard.empty())
+    throw UsageError("--shard is for studies whose points are known in advance; a search chooses every point "
+                     "by the ones before it");
   const ResultFolder folder = prepare_folder(options, study);
-  return with_journals([&] {
-    return is_sampled(study.kind) ? run_rows_of(options, study, folder) : run_search(options, study, folder);
-  });
+  return with_journals(
+      [&] { return rows ? run_rows_of(options, study, *rows, folder) : run_search(options, study, folder); });
 }
 
 void add_run(CLI::App& study, Command& chosen) {

@@ -27,7 +27,8 @@ struct StudyOptions {
 ExitCode with_journals(const std::function<ExitCode()>& command);
 
 ExitCode run_search(const StudyOptions& options, const StudyFile& study, const ResultFolder& folder);
-ExitCode run_rows_of(const StudyOptions& options, const StudyFile& study, const ResultFolder& folder);
+ExitCode run_rows_of(const StudyOptions& options, const StudyFile& study, const RowKind& kind,
+                     const ResultFolder& folder);
 ExitCode exit_code_of(RunEnd end);
 
 /// The study of `options` and its folder, with the plan written. Throws UsageError where the folder is

@@ -29,7 +29,7 @@ ExitCode exit_code(Verdict verdict) {
 ExitCode run_search(const StudyOptions& options, const StudyFile& study, const ResultFolder& folder) {
   const StopRequest stop(options.time_limit_s);
   const auto responses = gear_responses();
-  const Response& objective = responses[*find_response(responses, study.objective.output)];
+  const Response& objective = responses[*find_response(responses, study.part<SearchPart>().objective.output)];
   std::optional<SearchLine> line(std::in_place, std::string(objective.name), std::string(objective.unit));
   const auto report_now = run_optimisation(
       study, {.threads = options.threads,

@@ -53,9 +53,9 @@ std::optional<bool> same_as(const StoredResults& known, const ReproducedRow& row
   return true;
 }
 
-Outcome<ReproducedRow> reproduce_sampled(const StudyFile& study, std::uint64_t index,
+Outcome<ReproducedRow> reproduce_sampled(const StudyFile& study, const RowKind& kind, std::uint64_t index,
                                          const RowOptions& options) {
-  const auto made = make_rows(study, options);
+  const auto made = kind.make_rows(study, options);
   if (!made)
     return made.failure();
   const SampledStudy& rows = *made;
@@ -125,10 +125,11 @@ Outcome<ReproducedRow> reproduce_search(const StudyFile& study, const std::optio
 
 Outcome<ReproducedRow> reproduce_row(const std::filesystem::path& folder, std::uint64_t index,
                                      const RowOptions& options) {
-  const StudyFile study = read_plan(folder);
+  const StudyFile study = read_plan(folder, study_kinds());
   const auto known = stored(folder);
-  auto row = is_sampled(study.kind) ? reproduce_sampled(study, index, options)
-                                    : reproduce_search(study, known, index, options, folder);
+  const RowKind* kind = row_kind(study);
+  auto row = kind ? reproduce_sampled(study, *kind, index, options)
+                  : reproduce_search(study, known, index, options, folder);
   if (!row)
     return row;
   ReproducedRow found = std::move(row).value();

@@ -34,7 +34,7 @@ std::optional<Failure> find_fault_of_baseline(const Evaluation& baseline) {
 
 std::vector<Constraint> constraints_of(const StudyFile& study) {
   std::vector<Constraint> constraints;
-  for (const StudyConstraint& c : study.constraints)
+  for (const StudyConstraint& c : study.part<SearchPart>().constraints)
     constraints.push_back({.output = c.output,
                            .min = c.min,
                            .max = c.max,
@@ -47,7 +47,7 @@ std::vector<Constraint> constraints_of(const StudyFile& study) {
 std::vector<LimitReport> limits_of(const StudyFile& study, const Problem& problem) {
   std::vector<LimitReport> reports;
   std::size_t k = 0;
-  for (const StudyConstraint& c : study.constraints) {
+  for (const StudyConstraint& c : study.part<SearchPart>().constraints) {
     for (const auto& plain : {c.min, c.max})
       if (plain)
         reports.push_back({problem.limits()[k++], ""});
@@ -151,7 +151,7 @@ std::vector<FailureCount> count_failures(const std::vector<StoredPoint>& points)
 
 DesignSpace study_design(const StudyFile& study) {
   std::vector<DesignVariable> variables;
-  for (const StudyVariable& v : study.variables) {
+  for (const StudyVariable& v : study.part<SearchPart>().variables) {
     const NumberPath path(v.path);
     DesignVariable variable{.path = path,
                             .lower = v.lower,
@@ -174,7 +174,8 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
   GearEvaluator model(study.gear, design, loads, forward, options.warn);
   OptimisationReport report;
   report.study = study;
-  report.method = study.method.name.empty() ? std::string(global_method) : study.method.name;
+  const auto& search = study.part<SearchPart>();
+  report.method = search.method.name.empty() ? std::string(global_method) : search.method.name;
   report.baseline = model.evaluate_base();
   if (auto fault = find_fault_of_baseline(report.baseline))
     return *fault;
@@ -185,23 +186,23 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
     journal.emplace(options.journal, plan_hash(study), search_model_hash(), store);
     report.damage = journal->damage();
   }
-  const Objective objective{study.objective.output, study.objective.goal == Goal::maximise};
+  const Objective objective{search.objective.output, search.objective.goal == Goal::maximise};
   const Problem problem(design, store, objective, constraints_of(study), report.baseline);
   report.limits = limits_of(study, problem);
   // At least one new evaluation in every run: else runs shorter than the baseline would never come to an end.
   const auto stop = [&] { return options.stop && options.stop() && store.counts().done > 0; };
-  Monitor monitor(static_cast<std::size_t>(study.method.budget), stop, options.progress);
+  Monitor monitor(static_cast<std::size_t>(search.method.budget), stop, options.progress);
   GearEvaluator fresh(study.gear, design, loads, forward);
   const OptimiseSettings settings{.search = {.method = report.method,
-                                             .budget = static_cast<std::size_t>(study.method.budget),
-                                             .tolerance = study.method.tolerance,
+                                             .budget = static_cast<std::size_t>(search.method.budget),
+                                             .tolerance = search.method.tolerance,
                                              .seed = static_cast<std::uint64_t>(study.seed)},
-                                  .starts = static_cast<std::size_t>(study.method.starts),
+                                  .starts = static_cast<std::size_t>(search.method.starts),
                                   .threads = options.threads,
                                   .known = unmodified(design, study.gear)};
-  if (study.kind == StudyKind::pareto) {
-    const Objective second{study.pareto.output, study.pareto.goal == Goal::maximise};
-    const auto points = static_cast<std::size_t>(study.pareto.points);
+  if (const auto* two = study.find_part<ParetoPart>()) {
+    const Objective second{two->pareto.output, two->pareto.goal == Goal::maximise};
+    const auto points = static_cast<std::size_t>(two->pareto.points);
     const auto front = pareto_front(problem, second, {.each = settings, .points = points}, fresh, monitor);
     report_front(report, design, front);
   } else {

@@ -5,7 +5,7 @@
 #include "strainwave/optimize/gear/gear_evaluator.hpp"
 #include "strainwave/optimize/plans/optimise.hpp"
 #include "strainwave/optimize/problem/evaluation_store.hpp"
-#include "strainwave/studies/file/study.hpp"
+#include "strainwave/studies/search/search.hpp"
 
 #include <filesystem>
 #include <functional>

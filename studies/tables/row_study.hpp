@@ -1,5 +1,5 @@
 #pragma once
-// Studies whose rows are known in advance (sweep, monte_carlo, sensitivity): what run_rows() needs, what
+// Studies whose rows are known in advance: what run_rows() needs, what
 // results.h5 shows, and what is asked of the finished table. One maker for each kind; everything that follows
 // (engine, journal, shards, statistics, reports) is the same for all of them.
 //

@@ -8,7 +8,7 @@
 namespace strainwave {
 
 Outcome<SampledStudy> make_monte_carlo_rows(const StudyFile& study, const RowOptions& options) {
-  const StudySampling& sampling = study.sampling;
+  const StudySampling& sampling = study.part<MonteCarloPart>().sampling;
   auto made = SampledGear::make(study, sampling.outputs, sampling.positions, options);
   if (!made)
     return made.failure();

@@ -134,7 +134,7 @@ std::vector<LocalElasticity> elasticities_of(const SampledGear& gear, const std:
 } // namespace
 
 Outcome<SampledStudy> make_sensitivity_rows(const StudyFile& study, const RowOptions& options) {
-  const StudySensitivity& wanted = study.sensitivity;
+  const StudySensitivity& wanted = study.part<SensitivityPart>().sensitivity;
   auto made = SampledGear::make(study, wanted.outputs, wanted.positions, options);
   if (!made)
     return made.failure();

@@ -24,7 +24,7 @@ Json image_of(const std::string& text) {
 /// For each instance, does it satisfy the schema? Also checks that the schema itself is legal 2020-12.
 std::vector<bool> judgements(const std::vector<Json>& instances) {
   const TemporaryFolder folder;
-  const std::string schema = folder.write("schema.json", study_json_schema().dump());
+  const std::string schema = folder.write("schema.json", study_json_schema(study_kinds()).dump());
   const std::string cases = folder.write("instances.json", Json(instances).dump());
   const std::string program = folder.write("judge.py", R"(
 import json, sys
@@ -68,7 +68,7 @@ TEST(StudySchema, AcceptsTheGalleryAndRefusesSlips) {
 }
 
 TEST(StudySchema, TheDocumentIsInStep) {
-  EXPECT_EQ(file_text(STRAINWAVE_SOURCE "/docs/study-file.md"), study_reference_page())
+  EXPECT_EQ(file_text(STRAINWAVE_SOURCE "/docs/study-file.md"), study_reference_page(study_kinds()))
       << "renew it: strainwave schema --study --reference > docs/study-file.md";
 }
 
