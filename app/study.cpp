@@ -3,6 +3,7 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "app/stop_request.hpp"
+#include "strainwave/common/threads/parallel.hpp"
 #include "strainwave/studies/commands/kinds.hpp"
 #include "strainwave/studies/search/optimisation.hpp"
 
@@ -47,6 +48,13 @@ void add_run(CLI::App& study, Command& chosen) {
 }
 
 } // namespace
+
+RunContext run_context(int threads, bool no_cache) {
+  return {.threads = usable_threads(threads),
+          .disk_cache = !no_cache,
+          .stop = stop_signalled,
+          .warn = [](const std::string& sentence) { report(sentence); }};
+}
 
 ExitCode with_journals(const std::function<ExitCode()>& command) {
   try {

@@ -3,6 +3,7 @@
 
 #include "app/exit_codes.hpp"
 #include "strainwave/common/rows/journal_format.hpp"
+#include "strainwave/common/threads/run_context.hpp"
 #include "strainwave/studies/tables/run.hpp"
 
 #include <functional>
@@ -25,6 +26,9 @@ struct StudyOptions {
 /// Runs `command`; a journal that is refused becomes a sentence and an exit code: 2 another plan, 74 damaged
 /// or in use, 75 rows are missing, 3 shards contradict each other.
 ExitCode with_journals(const std::function<ExitCode()>& command);
+
+/// For whatever is run: threads counted once, signals heeded, warnings on stderr.
+RunContext run_context(int threads, bool no_cache);
 
 ExitCode run_search(const StudyOptions& options, const StudyFile& study, const ResultFolder& folder);
 ExitCode run_rows_of(const StudyOptions& options, const StudyFile& study, const RowKind& kind,

@@ -103,8 +103,7 @@ ExitCode merge(const std::string& folder_name, bool allow_missing, bool as_json,
                                  journals.front().string(), folder_name));
   for (const std::string& note : merged->notes)
     report(note);
-  const auto rows =
-      kind->make_rows(study, {.disk_cache = !no_cache, .warn = [](const std::string& s) { report(s); }});
+  const auto rows = kind->make_rows(study, run_context(0, no_cache));
   if (!rows) {
     report(rows.failure().message);
     return ExitCode::no_result;

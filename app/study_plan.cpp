@@ -27,7 +27,7 @@ std::string size_text(double bytes) {
 ExitCode plan(const StudyOptions& options) {
   const StudyFile study = load_study(options.file, study_kinds(), options.reduced);
   const ResultFolder folder = prepare_folder(options, study);
-  const auto estimate = pilot(study, options.threads);
+  const auto estimate = pilot(study, run_context(options.threads, true));
   if (!estimate) {
     report(estimate.failure().message);
     return ExitCode::no_result;

@@ -49,18 +49,15 @@ ExitCode run_rows_of(const StudyOptions& options, const StudyFile& study, const 
         "each other");
   std::optional<ProgressLine> line(std::in_place);
   const auto made = run_sampled(study, kind, folder,
-                                {.threads = options.threads,
-                                 .disk_cache = !options.no_cache,
+                                {.context = run_context(options.threads, options.no_cache),
                                  .shard = shard.number,
                                  .shards = shard.count,
                                  .time_limit_s = options.time_limit_s,
-                                 .stop = stop_signalled,
                                  .progress =
                                      [&](const RunProgress& progress) {
                                        if (line->due())
                                          line->show(progress_line(progress));
                                      },
-                                 .warn = [](const std::string& sentence) { report(sentence); },
                                  .overdue = leave_stopped});
   line.reset();
   if (!made) {

@@ -117,14 +117,16 @@ Outcome<PilotEstimate> pilot_search(const StudyFile& study, PilotEstimate e) {
 
 } // namespace
 
-Outcome<PilotEstimate> pilot(const StudyFile& study, int threads) {
+Outcome<PilotEstimate> pilot(const StudyFile& study, RunContext context) {
   PilotEstimate e;
-  e.threads = usable_threads(threads);
+  e.threads = usable_threads(context.threads);
+  context.disk_cache = false;
+  context.warn = {}; // the run says it
   const RowKind* kind = row_kind(study);
   if (!kind)
     return pilot_search(study, e);
   const auto begin = Clock::now();
-  auto rows = kind->make_rows(study, {.threads = e.threads, .disk_cache = false});
+  auto rows = kind->make_rows(study, context);
   if (!rows)
     return rows.failure();
   e.prepare_s = since(begin);

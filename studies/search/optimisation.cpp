@@ -167,11 +167,12 @@ DesignSpace study_design(const StudyFile& study) {
 }
 
 Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOptions& options) {
+  const RunContext& context = options.context;
   const auto begin = std::chrono::steady_clock::now();
   const DesignSpace design = study_design(study);
   const std::vector<Load> loads = study_loads(study);
-  const ForwardOptions forward{.disk_cache = options.disk_cache, .threads = options.threads};
-  GearEvaluator model(study.gear, design, loads, forward, options.warn);
+  const ForwardOptions forward{.disk_cache = context.disk_cache, .threads = context.threads};
+  GearEvaluator model(study.gear, design, loads, forward, context.warn);
   OptimisationReport report;
   report.study = study;
   const auto& search = study.part<SearchPart>();
@@ -190,7 +191,7 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
   const Problem problem(design, store, objective, constraints_of(study), report.baseline);
   report.limits = limits_of(study, problem);
   // At least one new evaluation in every run: else runs shorter than the baseline would never come to an end.
-  const auto stop = [&] { return options.stop && options.stop() && store.counts().done > 0; };
+  const auto stop = [&] { return context.stop && context.stop() && store.counts().done > 0; };
   Monitor monitor(static_cast<std::size_t>(search.method.budget), stop, options.progress);
   GearEvaluator fresh(study.gear, design, loads, forward);
   const OptimiseSettings settings{.search = {.method = report.method,
@@ -198,7 +199,7 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
                                              .tolerance = search.method.tolerance,
                                              .seed = static_cast<std::uint64_t>(study.seed)},
                                   .starts = static_cast<std::size_t>(search.method.starts),
-                                  .threads = options.threads,
+                                  .threads = context.threads,
                                   .known = unmodified(design, study.gear)};
   if (const auto* two = study.find_part<ParetoPart>()) {
     const Objective second{two->pareto.output, two->pareto.goal == Goal::maximise};
@@ -208,7 +209,7 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
   } else {
     report_best(report, design, optimise(problem, settings, fresh, monitor).judgement);
     report_bound(report, design, loads, forward);
-    if (report.best_gear && !(options.stop && options.stop())) {
+    if (report.best_gear && !(context.stop && context.stop())) {
       ForwardModel other_models(forward);
       report.variants = optimum_variants(report.study.gear, *report.best_gear, loads, other_models);
     }

@@ -108,10 +108,10 @@ private:
 
 class SweepModel : public RowModel {
 public:
-  SweepModel(const StudyFile& study, const RowOptions& options)
-      : study_(study), warn_(options.warn),
+  SweepModel(const StudyFile& study, const RunContext& context)
+      : study_(study), warn_(context.warn),
         forward_(std::make_shared<ForwardModel>(
-            ForwardOptions{.disk_cache = options.disk_cache, .threads = options.threads})) {
+            ForwardOptions{.disk_cache = context.disk_cache, .threads = context.threads})) {
     for (const SweepVariable& v : study.part<SweepPart>().variables)
       knobs_.push_back(knob_of(v));
     const auto loads = study_loads(study);
@@ -209,9 +209,9 @@ std::vector<double> sweep_values(const SweepVariable& v) {
   return values;
 }
 
-Outcome<SampledStudy> make_sweep_rows(const StudyFile& study, const RowOptions& options) {
+Outcome<SampledStudy> make_sweep_rows(const StudyFile& study, const RunContext& context) {
   const auto grid = std::make_shared<const SweepGrid>(study);
-  auto model = std::make_unique<SweepModel>(study, options);
+  auto model = std::make_unique<SweepModel>(study, context);
   SampledStudy sampled;
   for (const SweepVariable& v : study.part<SweepPart>().variables) {
     const auto load = load_path(v.path);

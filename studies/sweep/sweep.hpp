@@ -47,6 +47,6 @@ struct SweepPart : StudyPart {
 
 const RowKind& sweep_kind();
 
-Outcome<SampledStudy> make_sweep_rows(const StudyFile& study, const RowOptions& options);
+Outcome<SampledStudy> make_sweep_rows(const StudyFile& study, const RunContext& context);
 
 } // namespace strainwave

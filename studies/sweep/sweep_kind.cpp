@@ -228,8 +228,8 @@ public:
                                                                  : "every value with every other";
   }
 
-  Outcome<SampledStudy> make_rows(const StudyFile& study, const RowOptions& options) const override {
-    return make_sweep_rows(study, options);
+  Outcome<SampledStudy> make_rows(const StudyFile& study, const RunContext& context) const override {
+    return make_sweep_rows(study, context);
   }
   std::unique_ptr<const RowAnswer> answer(const StudyFile&, const SampledStudy& rows,
                                           const RowTable& table) const override {

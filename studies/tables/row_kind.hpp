@@ -26,7 +26,7 @@ public:
 class RowKind : public ReportedKind {
 public:
   /// May take its time (finite elements). Failure: the nominal gear has no result. Throws FieldError.
-  virtual Outcome<SampledStudy> make_rows(const StudyFile& study, const RowOptions& options) const = 0;
+  virtual Outcome<SampledStudy> make_rows(const StudyFile& study, const RunContext& context) const = 0;
   virtual std::unique_ptr<const RowAnswer> answer(const StudyFile& study, const SampledStudy& rows,
                                                   const RowTable& table) const = 0;
   /// A study that ends by itself (EngineOptions::enough), and then has no shards; empty: it does not.

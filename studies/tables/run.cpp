@@ -102,20 +102,19 @@ void add_answers(SampledReport& report, const RowKind& kind, const SampledStudy&
 Outcome<SampledReport> run_sampled(const StudyFile& study, const RowKind& kind, const ResultFolder& folder,
                                    const SampledOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
-  const int threads = usable_threads(options.threads);
-  auto made =
-      kind.make_rows(study, {.threads = threads, .disk_cache = options.disk_cache, .warn = options.warn});
+  const RunContext& context = options.context;
+  auto made = kind.make_rows(study, context);
   if (!made)
     return made.failure();
   const SampledStudy& rows = *made;
-  EngineOptions engine{.threads = threads, .slice_rows = rows.slice_rows};
+  EngineOptions engine{.threads = usable_threads(context.threads), .slice_rows = rows.slice_rows};
   if (options.time_limit_s) {
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
     engine.time_limit_s = std::max(0.0, *options.time_limit_s - spent.count());
   }
   engine.failure_share = study.limits.failure_share;
   engine.enough = kind.enough(study, rows);
-  engine.stop = options.stop;
+  engine.stop = context.stop;
   engine.progress = options.progress;
   engine.progress_every_s = 0.2;
   engine.overdue = options.overdue;

@@ -9,13 +9,10 @@
 namespace strainwave {
 
 struct SampledOptions {
-  int threads = 0; ///< 0: all that the process may use
-  bool disk_cache = true;
+  RunContext context = {};
   std::uint32_t shard = 0, shards = 1;
   std::optional<double> time_limit_s = {};
-  std::function<bool()> stop = {};
   std::function<void(const RunProgress&)> progress = {};
-  std::function<void(const std::string&)> warn = {};
   std::function<void()> overdue = {}; ///< see EngineOptions
 };
 

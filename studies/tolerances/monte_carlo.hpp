@@ -50,6 +50,6 @@ struct MonteCarloPart : UncertainPart {
 const RowKind& monte_carlo_kind();
 
 /// Row k is sample k of the design through all sources.
-Outcome<SampledStudy> make_monte_carlo_rows(const StudyFile& study, const RowOptions& options);
+Outcome<SampledStudy> make_monte_carlo_rows(const StudyFile& study, const RunContext& context);
 
 } // namespace strainwave

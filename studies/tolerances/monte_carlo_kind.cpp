@@ -408,8 +408,8 @@ public:
     return "row k from (seed, k, source) alone";
   }
 
-  Outcome<SampledStudy> make_rows(const StudyFile& study, const RowOptions& options) const override {
-    return make_monte_carlo_rows(study, options);
+  Outcome<SampledStudy> make_rows(const StudyFile& study, const RunContext& context) const override {
+    return make_monte_carlo_rows(study, context);
   }
   std::unique_ptr<const RowAnswer> answer(const StudyFile& study, const SampledStudy& rows,
                                           const RowTable& table) const override {

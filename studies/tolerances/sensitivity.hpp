@@ -29,6 +29,6 @@ struct SensitivityPart : UncertainPart {
 
 const RowKind& sensitivity_kind();
 
-Outcome<SampledStudy> make_sensitivity_rows(const StudyFile& study, const RowOptions& options);
+Outcome<SampledStudy> make_sensitivity_rows(const StudyFile& study, const RunContext& context);
 
 } // namespace strainwave

@@ -285,8 +285,8 @@ public:
     return "row k from (seed, k, source) alone";
   }
 
-  Outcome<SampledStudy> make_rows(const StudyFile& study, const RowOptions& options) const override {
-    return make_sensitivity_rows(study, options);
+  Outcome<SampledStudy> make_rows(const StudyFile& study, const RunContext& context) const override {
+    return make_sensitivity_rows(study, context);
   }
   std::unique_ptr<const RowAnswer> answer(const StudyFile& study, const SampledStudy& rows,
                                           const RowTable& table) const override {

@@ -55,7 +55,7 @@ double value(const Evaluation& evaluation, std::string_view name) {
 class CoarseStudy : public testing::Test {
 protected:
   StudyFolder folder;
-  RunOptions options{.threads = 1, .disk_cache = false, .stop = {}, .progress = {}, .warn = {}};
+  RunOptions options{.context = {.threads = 1, .disk_cache = false}};
 
   Outcome<OptimisationReport> run(const std::string& text) {
     return run_optimisation(folder.read(text), options);
@@ -100,7 +100,7 @@ TEST_F(CoarseStudy, ShowsTheOptimumInOtherModelsAndBesideItsBound) {
 TEST_F(CoarseStudy, ThreadsDoNotShowInTheResult) {
   const StudyFile study = folder.read(with(coarse_study, "budget = 160", "budget = 120\nstarts = 3"));
   const auto one = run_optimisation(study, options);
-  options.threads = 2;
+  options.context.threads = 2;
   const auto two = run_optimisation(study, options);
   EXPECT_EQ(one->inputs[0].best, two->inputs[0].best);
   EXPECT_EQ(one->best->values[0], two->best->values[0]);
@@ -126,7 +126,7 @@ TEST_F(CoarseStudy, InterferingGearIsNoBaseline) {
 
 TEST_F(CoarseStudy, StopIsHeeded) {
   int asked = 0;
-  options.stop = [&] { return ++asked > 5; };
+  options.context.stop = [&] { return ++asked > 5; };
   const auto report = run(coarse_study);
   ASSERT_TRUE(report.ok());
   EXPECT_EQ(report->verdict, Verdict::stopped);
@@ -241,7 +241,7 @@ TEST(GalleryStudy, WholeFlankOptimaAreFarBelowTheUnmodifiedGear) {
 TEST(GalleryStudy, SeedOptimizeReducedFindsTheKnownOptimum) {
   const StudyFile study =
       load_study(STRAINWAVE_SOURCE "/studies/gallery/seed_optimize_one_point.toml", study_kinds(), true);
-  const auto report = run_optimisation(study, {.stop = {}, .progress = {}, .warn = {}});
+  const auto report = run_optimisation(study, {});
   ASSERT_TRUE(report.ok());
   EXPECT_EQ(report->verdict, Verdict::converged) << report->message;
   EXPECT_NEAR(value(report->baseline, "peak_force_n"), 47.186, 0.005);
