@@ -1,5 +1,6 @@
 #include "strainwave/studies/commands/kinds.hpp"
 
+#include "strainwave/studies/convergence/convergence.hpp"
 #include "strainwave/studies/search/search.hpp"
 #include "strainwave/studies/sweep/sweep.hpp"
 #include "strainwave/studies/tolerances/monte_carlo.hpp"
@@ -16,6 +17,7 @@ StudyKinds study_kinds() {
       &sweep_kind(),       //
       &monte_carlo_kind(), //
       &sensitivity_kind(), //
+      &convergence_kind(), //
   };
   return kinds;
 }

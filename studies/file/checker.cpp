@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace strainwave {
 
@@ -102,7 +103,9 @@ void StudyChecker::check_in_range(const std::string& key, const NumberPath& numb
   Field one = field;
   if (one.kind == FieldKind::number_list)
     one.kind = FieldKind::number;
-  fault(key, fmt::format("{} {}", number.path(), find_complaint(one, value)->sentence));
+  const bool whole = one.kind == FieldKind::integer && value == std::floor(value) && std::abs(value) < 1e9;
+  const FieldValue given_value = whole ? FieldValue(static_cast<int>(value)) : FieldValue(value);
+  fault(key, fmt::format("{} {}", number.path(), find_complaint(one, given_value)->sentence));
 }
 
 bool StudyChecker::names_load(std::string_view path) {

@@ -192,7 +192,7 @@ TEST(SampledStudyFile, MessagesAreExactlyThese) {
        "study.toml:20:8: source[3].path: the loads of a study are its load cases; write "
        "load_case[0].torque_nm, for example"},
       {good_monte_carlo, "\"wave_generator.max_radial_deformation_mm\"", "\"load_case[3].torque_nm\"",
-       "study.toml:20:8: source[3].path: there are only 1 load cases, counted from 0"},
+       "study.toml:20:8: source[3].path: there are only 3 load cases, counted from 0"},
       {good_monte_carlo, "\"wave_generator.max_radial_deformation_mm\"", "\"load_case[0].torque_nm\"",
        "no error"},
       {good_sensitivity, "circular_spline.profile_shift", "load.torque_nm[0]",

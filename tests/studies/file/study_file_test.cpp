@@ -79,6 +79,15 @@ TEST(StudyFileRead, LoadsFromDisk) {
       3u);
 }
 
+TEST(StudyFileRead, OnlyTheKindsThatAreHandedInExist) {
+  const StudyFolder folder;
+  const std::vector<const StudyKind*> kinds{&optimize_kind()};
+  EXPECT_EQ(parse_study(good_study, folder.path("study.toml"), kinds).kind, &optimize_kind());
+  EXPECT_THROW(
+      parse_study(edited(good_study, "\"optimize\"", "\"pareto\""), folder.path("study.toml"), kinds),
+      FileError);
+}
+
 TEST(StudyFileRead, StudiesAndGearsAreToldApart) {
   EXPECT_TRUE(is_study_text(good_study, study_kinds()));
   EXPECT_TRUE(is_study_text("gear = \"x\"\n", study_kinds()));

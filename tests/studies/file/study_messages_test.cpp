@@ -17,12 +17,14 @@ struct Golden {
 const std::vector<Golden>& goldens() {
   static const std::vector<Golden> all{
       {"misspelt kind", "\"optimize\"", "\"optimise\"",
-       "study.toml:1:8: kind: must be optimize, pareto, sweep, monte_carlo or sensitivity, is \"optimise\"; "
+       "study.toml:1:8: kind: must be optimize, pareto, sweep, monte_carlo, sensitivity or convergence, is "
+       "\"optimise\"; "
        "did you mean "
        "\"optimize\"?"},
       {"no kind", "kind = \"optimize\"", "",
-       "study.toml:1:1: kind: missing; expected one of the texts optimize, pareto, sweep, monte_carlo or "
-       "sensitivity: what "
+       "study.toml:1:1: kind: missing; expected one of the texts optimize, pareto, sweep, monte_carlo, "
+       "sensitivity "
+       "or convergence: what "
        "kind of study this is"},
       {"gear that is not there", "\"seed.toml\"", "\"sed.toml\"",
        "study.toml:2:8: gear: sed.toml: no such gear file; did you mean seed.toml?"},

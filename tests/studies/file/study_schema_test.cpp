@@ -52,7 +52,7 @@ TEST(StudySchema, AcceptsTheGalleryAndRefusesSlips) {
   };
   for (const char* name :
        {"seed_optimize", "seed_optimize_coned", "seed_optimize_one_point", "seed_pareto", "seed_multi_load",
-        "seed_relief_only", "seed_overnight_sweep", "seed_tolerance", "seed_sensitivity"})
+        "seed_relief_only", "seed_overnight_sweep", "seed_tolerance", "seed_sensitivity", "seed_convergence"})
     add(text_of(name), true);
   const std::string search = text_of("seed_optimize"), sweep = text_of("seed_overnight_sweep"),
                     sampled = text_of("seed_tolerance");
