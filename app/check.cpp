@@ -3,7 +3,7 @@
 #include "strainwave/model/forward/forward.hpp"
 #include "strainwave/model/gear_file/gear_file.hpp"
 #include "strainwave/model/gear_file/toml_source.hpp"
-#include "strainwave/studies/file/study.hpp"
+#include "strainwave/studies/commands/kinds.hpp"
 
 #include <memory>
 
@@ -14,8 +14,8 @@ namespace {
 ExitCode check(const std::string& file) {
   const std::string text = read_text_file(file, "gear file");
   Gear gear;
-  if (is_study_text(text)) {
-    const StudyFile study = parse_study(text, file);
+  if (is_study_text(text, study_kinds())) {
+    const StudyFile study = parse_study(text, file, study_kinds());
     print(write_study(study));
     gear = study.gear;
   } else {

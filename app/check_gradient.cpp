@@ -100,7 +100,9 @@ nlohmann::ordered_json json(const DesignSpace& design, const GradientCheck& chec
 }
 
 ExitCode run(const CheckOptions& options) {
-  const StudyFile study = load_study(options.file, options.reduced, study_vocabulary());
+  const StudyFile study = load_study(options.file, study_kinds(), options.reduced);
+  if (!study.find_part<SearchPart>())
+    throw UsageError(options.file + " is no search: there are no design variables to check slopes of");
   const DesignSpace design = study_design(study);
   const std::vector<double> x = options.at_start ? design.start() : smooth_point(design);
   GearEvaluator model(study.gear, design, study_loads(study), {.disk_cache = !options.no_cache},

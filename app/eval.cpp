@@ -1,5 +1,6 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
+#include "app/study.hpp"
 #include "strainwave/common/files/whole_file.hpp"
 #include "strainwave/model/gear_file/gear_file.hpp"
 #include "strainwave/studies/commands/reproduce.hpp"
@@ -57,9 +58,7 @@ std::string row_table(const ReproducedRow& row) {
 ExitCode eval(const EvalOptions& o) {
   const auto found = [&] {
     try {
-      return reproduce_row(
-          o.folder, o.index,
-          {.threads = o.threads, .disk_cache = !o.no_cache, .warn = [](const std::string& s) { report(s); }});
+      return reproduce_row(o.folder, o.index, run_context(o.threads, o.no_cache));
     } catch (const std::out_of_range& error) {
       throw UsageError(error.what());
     }

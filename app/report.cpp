@@ -1,6 +1,7 @@
 #include "strainwave/studies/report/report.hpp"
 #include "app/commands.hpp"
 #include "app/output.hpp"
+#include "strainwave/studies/commands/kinds.hpp"
 
 #include <memory>
 
@@ -14,7 +15,7 @@ ExitCode make_report(const std::string& folder) {
     throw UsageError((path / "results.h5").string() +
                      " is not there: run the study to its end, or `strainwave study merge` "
                      "its shards");
-  const std::string note = write_report(path);
+  const std::string note = write_report(path, study_kinds());
   if (!note.empty())
     report(note);
   print((path / "report.html").string() + "\n");

@@ -3,6 +3,7 @@
 #include "app/output.hpp"
 #include "strainwave/model/gear_file/gear_schema.hpp"
 #include "strainwave/model/results/result_fields.hpp"
+#include "strainwave/studies/commands/kinds.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -27,9 +28,9 @@ void add_schema(CLI::App& app, Command& chosen) {
       if (*of_results)
         print(results_reference());
       else if (*as_page)
-        print(*of_studies ? study_reference_page() : reference_page());
+        print(*of_studies ? study_reference_page(study_kinds()) : reference_page());
       else
-        print((*of_studies ? study_json_schema() : json_schema()).dump(2) + "\n");
+        print((*of_studies ? study_json_schema(study_kinds()) : json_schema()).dump(2) + "\n");
       return ExitCode::done;
     };
   });

@@ -3,8 +3,8 @@
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "app/stop_request.hpp"
+#include "strainwave/common/threads/parallel.hpp"
 #include "strainwave/studies/commands/kinds.hpp"
-#include "strainwave/studies/file/study_gear.hpp"
 #include "strainwave/studies/search/optimisation.hpp"
 
 #include <memory>
@@ -17,15 +17,14 @@ ExitCode run(const StudyOptions& options) {
   const StopRequest stop(options.time_limit_s);
   catch_stop_signals();
   const StopGuard guard(stop);
-  const StudyFile study = load_study(options.file, options.reduced, study_vocabulary());
-  if (!is_sampled(study.kind) && !options.shard.empty())
-    throw UsageError(
-        "--shard is for studies whose points are known in advance (sweep, monte_carlo without stop, "
-        "sensitivity); a search chooses every point by the ones before it");
+  const StudyFile study = load_study(options.file, study_kinds(), options.reduced);
+  const RowKind* rows = row_kind(study);
+  if (!rows && !options.shard.empty())
+    throw UsageError("--shard is for studies whose points are known in advance; a search chooses every point "
+                     "by the ones before it");
   const ResultFolder folder = prepare_folder(options, study);
-  return with_journals([&] {
-    return is_sampled(study.kind) ? run_rows_of(options, study, folder) : run_search(options, study, folder);
-  });
+  return with_journals(
+      [&] { return rows ? run_rows_of(options, study, *rows, folder) : run_search(options, study, folder); });
 }
 
 void add_run(CLI::App& study, Command& chosen) {
@@ -49,6 +48,13 @@ void add_run(CLI::App& study, Command& chosen) {
 }
 
 } // namespace
+
+RunContext run_context(int threads, bool no_cache) {
+  return {.threads = usable_threads(threads),
+          .disk_cache = !no_cache,
+          .stop = stop_signalled,
+          .warn = [](const std::string& sentence) { report(sentence); }};
+}
 
 ExitCode with_journals(const std::function<ExitCode()>& command) {
   try {

@@ -3,6 +3,7 @@
 
 #include "app/exit_codes.hpp"
 #include "strainwave/common/rows/journal_format.hpp"
+#include "strainwave/common/threads/run_context.hpp"
 #include "strainwave/studies/tables/run.hpp"
 
 #include <functional>
@@ -26,8 +27,12 @@ struct StudyOptions {
 /// or in use, 75 rows are missing, 3 shards contradict each other.
 ExitCode with_journals(const std::function<ExitCode()>& command);
 
+/// For whatever is run: threads counted once, signals heeded, warnings on stderr.
+RunContext run_context(int threads, bool no_cache);
+
 ExitCode run_search(const StudyOptions& options, const StudyFile& study, const ResultFolder& folder);
-ExitCode run_rows_of(const StudyOptions& options, const StudyFile& study, const ResultFolder& folder);
+ExitCode run_rows_of(const StudyOptions& options, const StudyFile& study, const RowKind& kind,
+                     const ResultFolder& folder);
 ExitCode exit_code_of(RunEnd end);
 
 /// The study of `options` and its folder, with the plan written. Throws UsageError where the folder is

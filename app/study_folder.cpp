@@ -6,7 +6,6 @@
 #include "strainwave/common/rows/merge.hpp"
 #include "strainwave/studies/commands/kinds.hpp"
 #include "strainwave/studies/commands/status.hpp"
-#include "strainwave/studies/file/study_gear.hpp"
 #include "strainwave/studies/results/compare.hpp"
 #include "strainwave/studies/search/optimisation.hpp"
 #include "strainwave/studies/tables/text.hpp"
@@ -28,7 +27,7 @@ std::string advice(const StudyStatus& s, const std::string& folder) {
   bool running = false;
   for (const JournalStatus& j : s.journals)
     running = running || j.running;
-  if (!is_sampled(s.study.kind))
+  if (!row_kind(s.study))
     return running                                       ? "it is running"
            : s.verdict.empty() || s.verdict == "stopped" ? "run it again to go on"
                                                          : "it has ended: " + s.verdict;
@@ -46,12 +45,12 @@ ExitCode status(const std::string& folder, bool as_json) {
   const StudyStatus s = study_status(folder);
   const std::string next = advice(s, folder);
   if (as_json) {
-    Json json{{"kind", study_kinds[static_cast<std::size_t>(s.study.kind)]},
+    Json json{{"kind", s.study.kind->name()},
               {"rows", s.rows},
               {"done", s.done},
               {"failed", s.failed},
-              {"complete", is_sampled(s.study.kind) ? !s.journals.empty() && s.missing.empty()
-                                                    : !s.verdict.empty() && s.verdict != "stopped"},
+              {"complete", row_kind(s.study) ? !s.journals.empty() && s.missing.empty()
+                                             : !s.verdict.empty() && s.verdict != "stopped"},
               {"results", s.has_results},
               {"next", next},
               {"shards", Json::array()}};
@@ -67,8 +66,7 @@ ExitCode status(const std::string& folder, bool as_json) {
     print(json.dump(2) + "\n");
     return ExitCode::done;
   }
-  std::string text = fmt::format("{}: {} of \"{}\"\n", s.study.file,
-                                 study_kinds[static_cast<std::size_t>(s.study.kind)], s.study.gear.name);
+  std::string text = fmt::format("{}: {} of \"{}\"\n", s.study.file, s.study.kind->name(), s.study.gear.name);
   if (s.rows > 0)
     text += fmt::format("  {} of {} rows done ({:.1f} %), {} failed\n", s.done, s.rows,
                         100.0 * static_cast<double>(s.done) / static_cast<double>(s.rows), s.failed);
@@ -83,8 +81,9 @@ ExitCode status(const std::string& folder, bool as_json) {
 }
 
 ExitCode merge(const std::string& folder_name, bool allow_missing, bool as_json, bool no_cache) {
-  const StudyFile study = read_plan(folder_name);
-  if (!is_sampled(study.kind))
+  const StudyFile study = read_plan(folder_name, study_kinds());
+  const RowKind* kind = row_kind(study);
+  if (!kind)
     throw UsageError(folder_name +
                      " holds a search, which has no shards; `study run` joins what it has found");
   if (!std::filesystem::exists(std::filesystem::path(folder_name) / "shards"))
@@ -104,8 +103,7 @@ ExitCode merge(const std::string& folder_name, bool allow_missing, bool as_json,
                                  journals.front().string(), folder_name));
   for (const std::string& note : merged->notes)
     report(note);
-  const auto rows =
-      make_rows(study, {.disk_cache = !no_cache, .warn = [](const std::string& s) { report(s); }});
+  const auto rows = kind->make_rows(study, run_context(0, no_cache));
   if (!rows) {
     report(rows.failure().message);
     return ExitCode::no_result;
@@ -115,7 +113,7 @@ ExitCode merge(const std::string& folder_name, bool allow_missing, bool as_json,
     throw UsageError(journals.front().string() + " was written by another model than this program's");
   SampledReport result = report_of(study, *rows, merged->table);
   if (result.whole)
-    result.statistics = statistics_of(study, *rows, merged->table);
+    add_answers(result, *kind, *rows, merged->table);
   result.reused = result.done;
   const double share = static_cast<double>(result.failed);
   if (share > study.limits.failure_share * static_cast<double>(result.done)) {

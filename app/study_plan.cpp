@@ -5,8 +5,8 @@
 #include "app/study.hpp"
 #include "strainwave/studies/commands/kinds.hpp"
 #include "strainwave/studies/commands/plan.hpp"
-#include "strainwave/studies/file/study_gear.hpp"
 #include "strainwave/studies/search/optimisation.hpp"
+#include "strainwave/studies/tables/row_kind.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -25,9 +25,9 @@ std::string size_text(double bytes) {
 }
 
 ExitCode plan(const StudyOptions& options) {
-  const StudyFile study = load_study(options.file, options.reduced, study_vocabulary());
+  const StudyFile study = load_study(options.file, study_kinds(), options.reduced);
   const ResultFolder folder = prepare_folder(options, study);
-  const auto estimate = pilot(study, options.threads);
+  const auto estimate = pilot(study, run_context(options.threads, true));
   if (!estimate) {
     report(estimate.failure().message);
     return ExitCode::no_result;
@@ -36,7 +36,7 @@ ExitCode plan(const StudyOptions& options) {
   const double disk = e.journal_bytes + e.results_bytes;
   const double free = static_cast<double>(std::filesystem::space(folder.path()).available);
   if (options.json) {
-    nlohmann::ordered_json json{{"kind", study_kinds[static_cast<std::size_t>(study.kind)]},
+    nlohmann::ordered_json json{{"kind", study.kind->name()},
                                 {"evaluations", e.evaluations},
                                 {"cups", e.cups},
                                 {"threads", e.threads},
@@ -51,8 +51,8 @@ ExitCode plan(const StudyOptions& options) {
     print(json.dump(2) + "\n");
   } else {
     std::string text = fmt::format("{}: {} of \"{}\"\n", std::filesystem::path(study.file).stem().string(),
-                                   study_kinds[static_cast<std::size_t>(study.kind)], study.gear.name);
-    text += fmt::format("  evaluations  {}{}{}\n", is_sampled(study.kind) ? "" : "at most ", e.evaluations,
+                                   study.kind->name(), study.gear.name);
+    text += fmt::format("  evaluations  {}{}{}\n", row_kind(study) ? "" : "at most ", e.evaluations,
                         e.cups > 1 ? fmt::format(" on {} cups, each solved once", e.cups) : "");
     text += fmt::format("  time         about {} with {} thread{} ({:.3g} ms each{})\n",
                         duration_text(e.seconds), e.threads, e.threads == 1 ? "" : "s", 1e3 * e.each_s,

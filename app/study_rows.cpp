@@ -4,7 +4,6 @@
 #include "app/progress_line.hpp"
 #include "app/stop_request.hpp"
 #include "app/study.hpp"
-#include "strainwave/studies/commands/kinds.hpp"
 #include "strainwave/studies/tables/text.hpp"
 
 #include <fmt/format.h>
@@ -41,26 +40,24 @@ ExitCode exit_code_of(RunEnd end) {
   return static_cast<ExitCode>(run_exit_code(end));
 }
 
-ExitCode run_rows_of(const StudyOptions& options, const StudyFile& study, const ResultFolder& folder) {
+ExitCode run_rows_of(const StudyOptions& options, const StudyFile& study, const RowKind& kind,
+                     const ResultFolder& folder) {
   const Shard shard = shard_of(options.shard);
-  if (shard.count > 1 && study.sampling.stop)
+  if (shard.count > 1 && kind.ends_by_itself(study))
     throw UsageError(
         "a study that stops by itself (sampling.stop) cannot be cut into shards: they would not know of "
         "each other");
   std::optional<ProgressLine> line(std::in_place);
-  const auto made = run_sampled(study, make_rows, folder,
-                                {.threads = options.threads,
-                                 .disk_cache = !options.no_cache,
+  const auto made = run_sampled(study, kind, folder,
+                                {.context = run_context(options.threads, options.no_cache),
                                  .shard = shard.number,
                                  .shards = shard.count,
                                  .time_limit_s = options.time_limit_s,
-                                 .stop = stop_signalled,
                                  .progress =
                                      [&](const RunProgress& progress) {
                                        if (line->due())
                                          line->show(progress_line(progress));
                                      },
-                                 .warn = [](const std::string& sentence) { report(sentence); },
                                  .overdue = leave_stopped});
   line.reset();
   if (!made) {

@@ -29,15 +29,15 @@ ExitCode exit_code(Verdict verdict) {
 ExitCode run_search(const StudyOptions& options, const StudyFile& study, const ResultFolder& folder) {
   const StopRequest stop(options.time_limit_s);
   const auto responses = gear_responses();
-  const Response& objective = responses[*find_response(responses, study.objective.output)];
+  const Response& objective = responses[*find_response(responses, study.part<SearchPart>().objective.output)];
   std::optional<SearchLine> line(std::in_place, std::string(objective.name), std::string(objective.unit));
+  RunContext context = run_context(options.threads, options.no_cache);
+  context.stop = stop; // the time limit, too
   const auto report_now = run_optimisation(
-      study, {.threads = options.threads,
-              .disk_cache = !options.no_cache,
-              .journal = folder.journal(),
-              .stop = stop,
-              .progress = [&](const SearchProgress& progress) { line->show(progress, stop.seconds_left()); },
-              .warn = [](const std::string& sentence) { report(sentence); }});
+      study,
+      {.context = context, .journal = folder.journal(), .progress = [&](const SearchProgress& progress) {
+         line->show(progress, stop.seconds_left());
+       }});
   line.reset();
   if (!report_now) {
     report(report_now.failure().message);

@@ -75,25 +75,25 @@ StudyFile gallery(Fidelity fidelity, bool discs) {
     return StudySource{
         .name = std::move(name), .kind = kind, .member = member, .path = std::move(path), .distribution = d};
   };
-  StudyFile study;
-  study.kind = StudyKind::monte_carlo;
+  StudyFile study(monte_carlo_kind());
+  auto& part = study.part<MonteCarloPart>();
   study.gear = seed_gear();
   study.gear.contact.fidelity = fidelity;
   study.load_cases = {{.torque_nm = 7.0, .rotation_rad = {}}};
   constexpr auto flexspline = SourceMember::flexspline, spline = SourceMember::circular_spline;
-  study.sources = {
+  part.sources = {
       error("fs", SourceKind::adjacent_pitch, Normal{0.0, 0.43}, flexspline, ""),
       error("cs", SourceKind::adjacent_pitch, Normal{0.0, 0.43}, spline, ""),
       error("run-out", SourceKind::run_out, Lognormal{1.0, 0.5}, flexspline, ""),
       error("x2", SourceKind::gear_key, Normal{2.19, 0.005}, flexspline, "circular_spline.profile_shift")};
   if (discs) {
-    study.sources.push_back(error("u0", SourceKind::gear_key, Normal{0.2, 0.0005}, flexspline,
-                                  "wave_generator.max_radial_deformation_mm"));
-    study.sources.push_back(
+    part.sources.push_back(error("u0", SourceKind::gear_key, Normal{0.2, 0.0005}, flexspline,
+                                 "wave_generator.max_radial_deformation_mm"));
+    part.sources.push_back(
         error("e", SourceKind::gear_key, Normal{0.6, 0.002}, flexspline, "wave_generator.eccentricity_mm"));
   }
-  study.sampling.design = SamplingDesign::random;
-  study.sampling.samples = 1 << 20;
+  part.sampling.design = SamplingDesign::random;
+  part.sampling.samples = 1 << 20;
   return study;
 }
 

@@ -2,9 +2,9 @@
 
 #include "strainwave/common/threads/parallel.hpp"
 #include "strainwave/optimize/gear/gear_evaluator.hpp"
-#include "strainwave/studies/commands/kinds.hpp"
 #include "strainwave/studies/file/study_gear.hpp"
 #include "strainwave/studies/search/optimisation.hpp"
+#include "strainwave/studies/tables/row_kind.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -41,8 +41,7 @@ double evaluate(const SampledStudy& rows, RowWorker& worker, std::uint64_t row, 
   return seconds / static_cast<double>(count);
 }
 
-PilotEstimate pilot_rows(const StudyFile& study, const SampledStudy& rows, PilotEstimate e) {
-  (void)study;
+PilotEstimate pilot_rows(const SampledStudy& rows, PilotEstimate e) {
   e.evaluations = rows.rows;
   e.cups = rows.cups;
   const auto worker = rows.model->worker();
@@ -104,7 +103,7 @@ Outcome<PilotEstimate> pilot_search(const StudyFile& study, PilotEstimate e) {
   std::ranges::sort(times);
   e.each_s = times[times.size() / 2];
   e.tried = 1 + static_cast<int>(times.size());
-  e.evaluations = static_cast<std::uint64_t>(study.method.budget);
+  e.evaluations = static_cast<std::uint64_t>(study.part<SearchPart>().method.budget);
   const auto n = static_cast<double>(e.evaluations);
   e.seconds = e.first_s +
               n * e.each_s; // searches wait for their own answers: threads help, but nobody knows how much
@@ -118,17 +117,20 @@ Outcome<PilotEstimate> pilot_search(const StudyFile& study, PilotEstimate e) {
 
 } // namespace
 
-Outcome<PilotEstimate> pilot(const StudyFile& study, int threads) {
+Outcome<PilotEstimate> pilot(const StudyFile& study, RunContext context) {
   PilotEstimate e;
-  e.threads = usable_threads(threads);
-  if (!is_sampled(study.kind))
+  e.threads = usable_threads(context.threads);
+  context.disk_cache = false;
+  context.warn = {}; // the run says it
+  const RowKind* kind = row_kind(study);
+  if (!kind)
     return pilot_search(study, e);
   const auto begin = Clock::now();
-  auto rows = make_rows(study, {.threads = e.threads, .disk_cache = false});
+  auto rows = kind->make_rows(study, context);
   if (!rows)
     return rows.failure();
   e.prepare_s = since(begin);
-  return pilot_rows(study, *rows, e);
+  return pilot_rows(*rows, e);
 }
 
 } // namespace strainwave

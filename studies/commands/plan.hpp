@@ -19,6 +19,7 @@ struct PilotEstimate {
 };
 
 /// Throws FieldError, std::system_error. Failure: the gear has no result.
-Outcome<PilotEstimate> pilot(const StudyFile& study, int threads);
+/// No cup comes from the cache: what it costs is asked.
+Outcome<PilotEstimate> pilot(const StudyFile& study, RunContext context);
 
 } // namespace strainwave

@@ -53,9 +53,9 @@ std::optional<bool> same_as(const StoredResults& known, const ReproducedRow& row
   return true;
 }
 
-Outcome<ReproducedRow> reproduce_sampled(const StudyFile& study, std::uint64_t index,
-                                         const RowOptions& options) {
-  const auto made = make_rows(study, options);
+Outcome<ReproducedRow> reproduce_sampled(const StudyFile& study, const RowKind& kind, std::uint64_t index,
+                                         const RunContext& context) {
+  const auto made = kind.make_rows(study, context);
   if (!made)
     return made.failure();
   const SampledStudy& rows = *made;
@@ -90,7 +90,7 @@ Outcome<ReproducedRow> reproduce_sampled(const StudyFile& study, std::uint64_t i
 }
 
 Outcome<ReproducedRow> reproduce_search(const StudyFile& study, const std::optional<StoredResults>& known,
-                                        std::uint64_t index, const RowOptions& options,
+                                        std::uint64_t index, const RunContext& context,
                                         const std::filesystem::path& folder) {
   if (!known)
     throw std::out_of_range(
@@ -102,7 +102,7 @@ Outcome<ReproducedRow> reproduce_search(const StudyFile& study, const std::optio
   const DesignSpace design = study_design(study);
   const std::span<const double> x = std::span(known->inputs).subspan(index * design.size(), design.size());
   GearEvaluator model(study.gear, design, study_loads(study),
-                      {.disk_cache = options.disk_cache, .threads = options.threads}, options.warn);
+                      {.disk_cache = context.disk_cache, .threads = context.threads}, context.warn);
   const Evaluation e = model.evaluate(x);
   ReproducedRow row;
   row.row = index;
@@ -124,11 +124,12 @@ Outcome<ReproducedRow> reproduce_search(const StudyFile& study, const std::optio
 } // namespace
 
 Outcome<ReproducedRow> reproduce_row(const std::filesystem::path& folder, std::uint64_t index,
-                                     const RowOptions& options) {
-  const StudyFile study = read_plan(folder);
+                                     const RunContext& context) {
+  const StudyFile study = read_plan(folder, study_kinds());
   const auto known = stored(folder);
-  auto row = is_sampled(study.kind) ? reproduce_sampled(study, index, options)
-                                    : reproduce_search(study, known, index, options, folder);
+  const RowKind* kind = row_kind(study);
+  auto row = kind ? reproduce_sampled(study, *kind, index, context)
+                  : reproduce_search(study, known, index, context, folder);
   if (!row)
     return row;
   ReproducedRow found = std::move(row).value();

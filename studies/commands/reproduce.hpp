@@ -24,6 +24,6 @@ struct ReproducedRow {
 /// Row `index` of DIR/results.h5, of any kind of study. Throws FileError without a plan, std::out_of_range
 /// with one sentence for an index that there is not.
 Outcome<ReproducedRow> reproduce_row(const std::filesystem::path& folder, std::uint64_t index,
-                                     const RowOptions& options);
+                                     const RunContext& context);
 
 } // namespace strainwave

@@ -2,7 +2,7 @@
 
 #include "strainwave/common/files/content_hash.hpp"
 #include "strainwave/common/rows/merge.hpp"
-#include "strainwave/studies/file/study_gear.hpp"
+#include "strainwave/studies/commands/kinds.hpp"
 #include "strainwave/studies/search/journal.hpp"
 #include "strainwave/studies/tables/run.hpp"
 
@@ -100,10 +100,10 @@ private:
 
 StudyStatus study_status(const std::filesystem::path& folder) {
   StudyStatus status;
-  status.study = read_plan(folder);
+  status.study = read_plan(folder, study_kinds());
   StatusReader(folder, status).read();
   status.has_results = std::filesystem::exists(folder / "results.h5");
-  if (!is_sampled(status.study.kind) && status.has_results)
+  if (!row_kind(status.study) && status.has_results)
     status.verdict = known_verdict(folder);
   return status;
 }

@@ -1,109 +1,63 @@
 #pragma once
-// What all checks of studies use: places in the file, names against what is legal, numbers of the gear.
-// Internal to the room.
+// What the checks of a study use, once its keys have been read: places in the file, names against what is
+// legal, numbers of the gear, loads.
 
-#include "strainwave/common/core/nearest.hpp"
 #include "strainwave/model/gear/fields.hpp"
-#include "strainwave/studies/file/checks.hpp"
+#include "strainwave/model/gear_file/file_error.hpp"
+#include "strainwave/studies/file/study.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
+#include <map>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace strainwave {
 
+/// Where keys of the file stand: "variable[0].path" → place of its value. Keys that are absent are not in it.
+using StudyPlaces = std::map<std::string, Place>;
+
 class StudyChecker {
 public:
-  StudyChecker(const StudyFile& study, const StudyPlaces& places, const StudyVocabulary& vocabulary,
-               std::vector<FileFault>& faults)
-      : study_(study), places_(places), vocabulary_(vocabulary), faults_(faults) {}
+  StudyChecker(const StudyFile& study, const StudyPlaces& places, std::vector<FileFault>& faults)
+      : study_(study), places_(places), faults_(faults) {}
 
-protected:
+  const StudyFile& study() const { return study_; }
   bool given(const std::string& key) const { return places_.contains(key); }
-
   /// The place of the key, or of the table around it.
-  Place place(std::string key) const {
-    while (true) {
-      const auto found = places_.find(key);
-      if (found != places_.end())
-        return found->second;
-      const std::size_t dot = key.rfind('.');
-      if (dot == std::string::npos)
-        return {1, 1};
-      key.resize(dot);
-    }
-  }
+  Place place(std::string key) const;
+  void fault(const std::string& key, std::string sentence, std::string nearest = "");
+  /// Has something been said about a key that starts like this?
+  bool faulty(std::string_view start) const;
 
-  void fault(const std::string& key, std::string sentence, std::string nearest = "") {
-    faults_.push_back({place(key), key, std::move(sentence), std::move(nearest)});
-  }
+  /// What no kind has of its own: the load cases.
+  void check_loads();
 
   void check_name(const std::string& key, const std::string& name, std::span<const std::string_view> legal,
-                  std::string_view what) {
-    if (!given(key) || legal.empty() || std::find(legal.begin(), legal.end(), name) != legal.end())
-      return;
-    const Nearest nearest = nearest_name(name, legal);
-    fault(key,
-          fmt::format(fmt::runtime(nearest.close ? "there is no {} \"{}\"; did you mean \"{}\"?"
-                                                 : "there is no {} \"{}\"; the nearest legal one is \"{}\""),
-                      what, name, nearest.name),
-          std::string(nearest.name));
-  }
+                  std::string_view what);
+  /// An output of a forward result that this gear gives under these loads.
+  void check_output(const std::string& key, const std::string& name);
+  /// The outputs that a study records: names of `legal`, each once.
+  void check_names(const std::string& key, const std::vector<std::string>& names,
+                   std::span<const std::string_view> legal);
 
-  void check_output(const std::string& key, const std::string& name) {
-    check_name(key, name, vocabulary_.outputs, "output");
-    if (!given(key) || !vocabulary_.unavailable)
-      return;
-    if (const auto sentence = vocabulary_.unavailable(name, study_))
-      fault(key, fmt::format("{} {}", name, *sentence));
-  }
-
-  /// The number that a path names; a fault if it names none that can vary continuously.
+  /// The number of the gear that a path names; a fault if it names none that can vary continuously.
   std::optional<NumberPath> continuous_number(const std::string& key, const std::string& path,
-                                              bool whole_allowed = false) {
-    if (!given(key))
-      return std::nullopt;
-    try {
-      NumberPath number(path);
-      if (number.field().kind == FieldKind::integer && !whole_allowed) {
-        fault(key, fmt::format("{} is a whole number; only continuous numbers can vary here", path));
-        return std::nullopt;
-      }
-      if (number.field().kind == FieldKind::number_list && !study_.gear_file.empty())
-        (void)number.get(study_.gear); // the item has to exist
-      return number;
-    } catch (const FieldError& error) {
-      fault(key, fmt::format("{}: {}", error.path, error.sentence));
-      return std::nullopt;
-    }
-  }
+                                              bool whole_allowed = false);
+  void check_in_range(const std::string& key, const NumberPath& number, double value);
+  /// Is this the path of a load, well spelt or not? Then the number of the gear is not to be looked for.
+  static bool names_load(std::string_view path);
+  /// The load that such a path names: there, and given by this very number. Nothing, and a fault, if not.
+  std::optional<LoadPath> load(const std::string& key, const std::string& path);
+  /// A number may vary once.
+  void claim(const std::string& key, const std::string& path);
 
-  void check_in_range(const std::string& key, const NumberPath& number, double value) {
-    const Field& field = number.field();
-    if (field.range.contains(value) || !given(key))
-      return;
-    Field one = field;
-    if (one.kind == FieldKind::number_list)
-      one.kind = FieldKind::number;
-    fault(key, fmt::format("{} {}", number.path(), find_complaint(one, value)->sentence));
-  }
-
-  void claim(const std::string& key, const std::string& path) {
-    const auto [first, is_new] = claimed_.emplace(path, place(key).line);
-    if (!is_new)
-      fault(key, fmt::format("{} varies already (line {})", path, first->second));
-  }
-
+private:
   const StudyFile& study_;
   const StudyPlaces& places_;
-  const StudyVocabulary& vocabulary_;
   std::vector<FileFault>& faults_;
   std::map<std::string, int> claimed_; ///< numbers that vary, and the line that says so
 };
-
-/// sweep, monte_carlo, sensitivity.
-void check_sampled_study(const StudyFile& study, const StudyPlaces& places, const StudyVocabulary& vocabulary,
-                         std::vector<FileFault>& faults);
 
 } // namespace strainwave

@@ -1,83 +1,52 @@
 #pragma once
-// The keys of study files, table by table, in the manner of model/gear/fields.hpp: a row has a Field, which
-// knows kind, range and words, and a function that writes a checked value into the table's struct.
+// The keys of study files, table by table, in the manner of model/gear/fields.hpp: a key has a Field, which
+// knows kind, range and words, and functions that read a value from the table's struct and write a checked
+// one into it. The struct stands behind void*, so that reader, writer, schema and reference page need not
+// know it; key_rows.hpp makes keys from the members of a struct.
 
 #include "strainwave/model/gear/fields.hpp"
 #include "strainwave/studies/file/study.hpp"
 
-#include <array>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace strainwave {
 
-template <class Table>
+struct StudyKey;
+using StudyKeys = std::span<const StudyKey>;
+
+/// A table inside a key: link = { path, ratio }, or one of several: distribution = { normal = { mean, std }
+/// }.
+struct StudyShape {
+  std::string_view name; ///< of one of several
+  StudyKeys (*keys)() = nullptr;
+  const void* (*blank)() = nullptr;                ///< the struct with its defaults
+  void* (*put)(void* table) = nullptr;             ///< makes the inner struct in the table's
+  const void* (*get)(const void* table) = nullptr; ///< null: it is not there
+};
+
 struct StudyKey {
-  Field field; ///< read and write are not used
-  FieldValue (*read)(const Table&);
-  void (*write)(Table&, const FieldValue&);
+  enum class Holds { value, table, one_of, names };
+  Field field; ///< its read and write are not used; of other than values only path and sentence are
+  Holds holds = Holds::value;
+  FieldValue (*read)(const void* table) = nullptr; ///< of a value
+  void (*write)(void* table, const FieldValue&) = nullptr;
+  std::span<const StudyShape> shapes;                        ///< of a table (one), or one of several
+  std::string_view what;                                     ///< of one of several: "distribution"
+  std::string_view example;                                  ///< of both: what messages expect
+  std::vector<std::string>* (*names)(void* table) = nullptr; ///< of a list of names
+  const std::vector<std::string>& (*list)(const void* table) = nullptr; ///< the same, to read
+  bool (*applies)(const void* table) = nullptr; ///< null: always; else whether it is written down
 };
 
-/// Keys of one table. Overloads on the table's struct; StudyFile itself stands for the top of the file.
-std::span<const StudyKey<StudyFile>> study_keys(const StudyFile&);
-std::span<const StudyKey<LoadCase>> study_keys(const LoadCase&);
-std::span<const StudyKey<StudyVariable>> study_keys(const StudyVariable&);
-std::span<const StudyKey<VariableLink>> study_keys(const VariableLink&);
-std::span<const StudyKey<StudyObjective>> study_keys(const StudyObjective&);
-std::span<const StudyKey<StudyConstraint>> study_keys(const StudyConstraint&);
-std::span<const StudyKey<StudyPareto>> study_keys(const StudyPareto&);
-std::span<const StudyKey<StudyMethod>> study_keys(const StudyMethod&);
-std::span<const StudyKey<StudyLimits>> study_keys(const StudyLimits&);
-std::span<const StudyKey<SweepVariable>> study_keys(const SweepVariable&);
-std::span<const StudyKey<StudySweep>> study_keys(const StudySweep&);
-std::span<const StudyKey<StudySource>> study_keys(const StudySource&);
-std::span<const StudyKey<StudyCorrelation>> study_keys(const StudyCorrelation&);
-std::span<const StudyKey<StudySampling>> study_keys(const StudySampling&);
-std::span<const StudyKey<StudyStop>> study_keys(const StudyStop&);
-std::span<const StudyKey<StudyExceedance>> study_keys(const StudyExceedance&);
-std::span<const StudyKey<StudySensitivity>> study_keys(const StudySensitivity&);
-std::span<const StudyKey<Normal>> study_keys(const Normal&);
-std::span<const StudyKey<TruncatedNormal>> study_keys(const TruncatedNormal&);
-std::span<const StudyKey<Uniform>> study_keys(const Uniform&);
-std::span<const StudyKey<Triangular>> study_keys(const Triangular&);
-std::span<const StudyKey<Lognormal>> study_keys(const Lognormal&);
-std::span<const StudyKey<Tabulated>> study_keys(const Tabulated&);
+/// Keys of the tables that kinds share. Overloads on the table's struct; every kind has those of its own.
+StudyKeys study_keys(const LoadCase&);
+StudyKeys study_keys(const VariableLink&);
+StudyKeys study_keys(const StudyLimits&);
 
-/// The alternatives of Distribution, by name and in its order.
-inline constexpr std::array<std::string_view, 6> distribution_names{
-    "normal", "truncated_normal", "uniform", "triangular", "lognormal", "table"};
-
-/// Keys that hold more than a FieldValue can, by the members that they fill:
-///     link = { path, ratio }   distribution = { NAME = { … } }   stop = { … }   outputs = ["…", …]
-template <class Table>
-std::vector<std::string_view> compound_keys() {
-  std::vector<std::string_view> names;
-  if constexpr (requires(Table t) { t.link; })
-    names.push_back("link");
-  if constexpr (requires(Table t) { t.distribution; })
-    names.push_back("distribution");
-  if constexpr (requires(Table t) { t.stop; })
-    names.push_back("stop");
-  if constexpr (requires(Table t) { t.outputs; })
-    names.push_back("outputs");
-  return names;
-}
-
-/// A heading of study files: which kinds of studies have it, and whether they need it.
-struct StudyHeading {
-  std::string_view name;
-  bool repeated;              ///< [[name]]
-  std::string_view kinds;     ///< o optimize, p pareto, w sweep, m monte_carlo, s sensitivity
-  std::string_view needed_by; ///< the same
-  std::string_view sentence;  ///< what it is about
-  std::string_view missing;   ///< what is said where it is missing
-
-  bool belongs_to(StudyKind kind) const { return kinds.find(letter(kind)) != std::string_view::npos; }
-  bool needed(StudyKind kind) const { return needed_by.find(letter(kind)) != std::string_view::npos; }
-  static char letter(StudyKind kind) { return "opwms"[static_cast<std::size_t>(kind)]; }
-};
-
-std::span<const StudyHeading> study_headings();
+/// Keys at the top of a file; `kinds`: names of the kinds, which have to live as long as the keys.
+std::vector<StudyKey> top_keys(std::span<const std::string_view> kinds);
 
 } // namespace strainwave

@@ -26,26 +26,21 @@ void note_changes(std::vector<StudyChange>& changes, const toml::table& table, c
   }
 }
 
-template <class Table>
-bool StudyReader::reduce_item(std::vector<Table>& tables, std::string_view name, const std::string& indexed,
-                              const std::string& key, Place key_place, const toml::node& node) {
-  if (!indexed.starts_with(name) || key.empty())
-    return false;
-  const std::string index = indexed.substr(name.size());
+/// `indexed`: "load_case[0]".
+void StudyReader::reduce_item(const StudyTable& tables, const std::string& indexed, const std::string& key,
+                              Place key_place, const toml::node& node) {
+  const std::string index = indexed.substr(tables.name.size());
   std::size_t i = 0;
   const bool bracketed = index.size() > 2 && index.front() == '[' && index.back() == ']';
   const char* const end = index.data() + index.size() - 1;
-  const bool read = bracketed && std::from_chars(index.data() + 1, end, i).ptr == end;
-  if (!read) {
+  if (!bracketed || std::from_chars(index.data() + 1, end, i).ptr != end)
     fault(key_place, "reduced." + indexed + "." + key,
-          fmt::format("says not which one; write {}[0].{}", name, key));
-  } else if (i >= tables.size()) {
+          fmt::format("says not which one; write {}[0].{}", tables.name, key));
+  else if (i >= tables.count(study_))
     fault(key_place, "reduced." + indexed + "." + key,
-          fmt::format("there are only {} [[{}]], counted from 0", tables.size(), name));
-  } else {
-    read_key(tables[i], indexed + ".", key, key_place, node);
-  }
-  return true;
+          fmt::format("there are only {} [[{}]], counted from 0", tables.count(study_), tables.name));
+  else
+    read_key(tables.keys(), tables.at(study_, i), indexed + ".", key, key_place, node);
 }
 
 /// Always read, so that a slip shows before an overnight run; kept only if the reduced study is wanted.
@@ -97,34 +92,17 @@ void StudyReader::apply_below(const std::string& prefix, const toml::table& tabl
 void StudyReader::reduce(const std::string& path, Place key_place, const toml::node& node) {
   if (is_gear_path(path))
     return apply_override(study_.gear, path, node, key_place, folder_, faults_);
+  if (path == "seed")
+    return read_key(top_, &study_, "", path, key_place, node);
   const std::size_t dot = path.find('.');
   const std::string table = path.substr(0, dot), key = dot == std::string::npos ? "" : path.substr(dot + 1);
-  if (path == "seed")
-    return read_key(study_, "", path, key_place, node);
-  if (table == "method" && !key.empty())
-    return read_key(study_.method, "method.", key, key_place, node);
-  if (table == "pareto" && !key.empty())
-    return read_key(study_.pareto, "pareto.", key, key_place, node);
-  if (table == "limits" && !key.empty())
-    return read_key(study_.limits, "limits.", key, key_place, node);
-  if (table == "objective" && !key.empty())
-    return read_key(study_.objective, "objective.", key, key_place, node);
-  if (reduce_item(study_.load_cases, "load_case", table, key, key_place, node))
-    return;
-  if (table == "sweep" && !key.empty())
-    return read_key(study_.sweep, "sweep.", key, key_place, node);
-  if (table == "sampling" && !key.empty())
-    return read_key(study_.sampling, "sampling.", key, key_place, node);
-  if (table == "sensitivity" && !key.empty())
-    return read_key(study_.sensitivity, "sensitivity.", key, key_place, node);
-  if (study_.kind == StudyKind::sweep
-          ? reduce_item(study_.sweep_variables, "variable", table, key, key_place, node)
-          : reduce_item(study_.variables, "variable", table, key, key_place, node))
-    return;
-  if (reduce_item(study_.sources, "source", table, key, key_place, node))
-    return;
-  if (reduce_item(study_.constraints, "constraint", table, key, key_place, node))
-    return;
+  const StudyTable* known = find_study_table(table.substr(0, table.find('[')));
+  if (known && known->keys && !key.empty()) {
+    if (known->repeated)
+      return reduce_item(*known, table, key, key_place, node);
+    if (table == known->name)
+      return read_key(known->keys(), known->at(study_, 0), table + ".", key, key_place, node);
+  }
   fault(key_place, "reduced." + path,
         "no such key of a study or of a gear; expected, for example, \"method.budget\", "
         "\"load_case[0].phases\" or "

@@ -1,10 +1,12 @@
 #include "strainwave/studies/file/schema.hpp"
 
 #include "strainwave/model/gear_file/gear_schema.hpp"
-#include "strainwave/studies/file/keys.hpp"
+#include "strainwave/studies/file/kind.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
 
 namespace strainwave {
 
@@ -12,103 +14,55 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What the visitors below are shown: one key, its default, or a key that is a table of its own.
-struct KeyRow {
-  std::string name;
-  const Field* field = nullptr; ///< null: a compound key
-  FieldValue default_value;
-  Json compound;        ///< its schema
-  std::string allowed;  ///< of a compound key
-  std::string sentence; ///< of a compound key
-};
+Json object_of(StudyKeys keys, const void* blank);
 
-template <class Table>
-Json object_of();
-
-template <class Shape>
-void add_shape(Json& shapes, std::size_t i) {
-  const std::string name(distribution_names[i]);
-  shapes.push_back(Json{{"type", "object"},
-                        {"properties", {{name, object_of<Shape>()}}},
-                        {"required", {name}},
-                        {"additionalProperties", false}});
+Json shape_object(const StudyShape& shape) {
+  return object_of(shape.keys(), shape.blank());
 }
 
-Json distribution_schema() {
-  Json shapes = Json::array();
-  add_shape<Normal>(shapes, 0);
-  add_shape<TruncatedNormal>(shapes, 1);
-  add_shape<Uniform>(shapes, 2);
-  add_shape<Triangular>(shapes, 3);
-  add_shape<Lognormal>(shapes, 4);
-  add_shape<Tabulated>(shapes, 5);
-  return Json{{"description", "one distribution"}, {"oneOf", shapes}};
-}
-
-template <class Table>
-std::string keys_in_words() {
+std::string keys_in_words(const StudyShape& shape) {
   std::string words;
-  for (const auto& key : study_keys(Table{}))
+  for (const StudyKey& key : shape.keys())
     words += fmt::format("{}{}", words.empty() ? "" : ", ", key.field.path);
   return words;
 }
 
-std::string distributions_in_words() {
-  return fmt::format(
-      "`{{ normal = {{ {} }} }}`, `{{ truncated_normal = {{ {} }} }}`, `{{ uniform = {{ {} }} }}`, "
-      "`{{ triangular = {{ {} }} }}`, `{{ lognormal = {{ {} }} }}`, `{{ table = {{ {} }} }}`",
-      keys_in_words<Normal>(), keys_in_words<TruncatedNormal>(), keys_in_words<Uniform>(),
-      keys_in_words<Triangular>(), keys_in_words<Lognormal>(), keys_in_words<Tabulated>());
+/// Nothing where the default is an empty text or list.
+FieldValue default_of(const StudyKey& key, const void* blank) {
+  FieldValue value = key.read(blank);
+  if (const auto* words = std::get_if<std::string>(&value); words && words->empty())
+    return {};
+  if (const auto* list = std::get_if<std::vector<double>>(&value); list && list->empty())
+    return {};
+  return value;
 }
 
-KeyRow compound_row(std::string_view name) {
-  KeyRow row;
-  row.name = name;
-  if (name == "link") {
-    row.compound = object_of<VariableLink>();
-    row.allowed = fmt::format("`{{ {} }}`", keys_in_words<VariableLink>());
-    row.sentence = "another number of the gear that moves along: ratio times this one";
-  } else if (name == "distribution") {
-    row.compound = distribution_schema();
-    row.allowed = distributions_in_words();
-    row.sentence = "of each of its numbers: µm, or the unit of the gear's key";
-  } else if (name == "stop") {
-    row.compound = object_of<StudyStop>();
-    row.allowed = fmt::format("`{{ {} }}`", keys_in_words<StudyStop>());
-    row.sentence = "end by itself: design \"random\" only, no shards";
-  } else {
-    row.compound = Json{{"type", "array"}, {"items", {{"type", "string"}}}};
-    row.allowed = "list of texts";
-    row.sentence = "which outputs are recorded; absent: all that there are";
+Json key_schema(const StudyKey& key, const void* blank) {
+  switch (key.holds) {
+  case StudyKey::Holds::value:
+    return field_schema(key.field, default_of(key, blank));
+  case StudyKey::Holds::table:
+    return shape_object(key.shapes.front());
+  case StudyKey::Holds::names:
+    return Json{{"type", "array"}, {"items", {{"type", "string"}}}};
+  case StudyKey::Holds::one_of:
+    break;
   }
-  return row;
+  Json shapes = Json::array();
+  for (const StudyShape& shape : key.shapes)
+    shapes.push_back(Json{{"type", "object"},
+                          {"properties", {{std::string(shape.name), shape_object(shape)}}},
+                          {"required", {std::string(shape.name)}},
+                          {"additionalProperties", false}});
+  return Json{{"description", fmt::format("one {}", key.what)}, {"oneOf", shapes}};
 }
 
-template <class Table>
-std::vector<KeyRow> rows_of() {
-  std::vector<KeyRow> rows;
-  for (const auto& key : study_keys(Table{})) {
-    KeyRow row;
-    row.name = key.field.path;
-    row.field = &key.field;
-    row.default_value = key.read(Table{});
-    if (const auto* words = std::get_if<std::string>(&row.default_value); words && words->empty())
-      row.default_value = {};
-    if (const auto* list = std::get_if<std::vector<double>>(&row.default_value); list && list->empty())
-      row.default_value = {};
-    rows.push_back(std::move(row));
-  }
-  for (const std::string_view name : compound_keys<Table>())
-    rows.push_back(compound_row(name));
-  return rows;
-}
-
-Json object_of(const std::vector<KeyRow>& rows) {
+Json object_of(StudyKeys keys, const void* blank) {
   Json properties = Json::object(), required = Json::array();
-  for (const KeyRow& row : rows) {
-    properties[row.name] = row.field ? field_schema(*row.field, row.default_value) : row.compound;
-    if (row.field && row.field->required)
-      required.push_back(row.name);
+  for (const StudyKey& key : keys) {
+    properties[std::string(key.field.path)] = key_schema(key, blank);
+    if (key.field.required)
+      required.push_back(key.field.path);
   }
   Json schema{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
   if (!required.empty())
@@ -116,49 +70,29 @@ Json object_of(const std::vector<KeyRow>& rows) {
   return schema;
 }
 
-template <class Table>
-Json object_of() {
-  return object_of(rows_of<Table>());
+std::string allowed_text(const StudyKey& key) {
+  switch (key.holds) {
+  case StudyKey::Holds::value:
+    return allowed_words(key.field);
+  case StudyKey::Holds::names:
+    return "list of texts";
+  case StudyKey::Holds::table:
+    return fmt::format("`{{ {} }}`", keys_in_words(key.shapes.front()));
+  case StudyKey::Holds::one_of:
+    break;
+  }
+  std::string words;
+  for (const StudyShape& shape : key.shapes)
+    words +=
+        fmt::format("{}`{{ {} = {{ {} }} }}`", words.empty() ? "" : ", ", shape.name, keys_in_words(shape));
+  return words;
 }
 
-/// Keys below a heading; nothing where any path may stand (override, reduced).
-std::vector<KeyRow> rows_below(std::string_view heading, StudyKind kind) {
-  if (heading == "load_case")
-    return rows_of<LoadCase>();
-  if (heading == "variable")
-    return kind == StudyKind::sweep ? rows_of<SweepVariable>() : rows_of<StudyVariable>();
-  if (heading == "objective")
-    return rows_of<StudyObjective>();
-  if (heading == "constraint")
-    return rows_of<StudyConstraint>();
-  if (heading == "pareto")
-    return rows_of<StudyPareto>();
-  if (heading == "method")
-    return rows_of<StudyMethod>();
-  if (heading == "sweep")
-    return rows_of<StudySweep>();
-  if (heading == "source")
-    return rows_of<StudySource>();
-  if (heading == "correlation")
-    return rows_of<StudyCorrelation>();
-  if (heading == "sampling")
-    return rows_of<StudySampling>();
-  if (heading == "exceedance")
-    return rows_of<StudyExceedance>();
-  if (heading == "sensitivity")
-    return rows_of<StudySensitivity>();
-  if (heading == "limits")
-    return rows_of<StudyLimits>();
-  return {};
-}
-
-std::string default_words(const KeyRow& row) {
-  if (row.field && row.field->required)
+std::string default_words(const StudyKey& key, const void* blank) {
+  if (key.field.required || key.holds == StudyKey::Holds::one_of)
     return "**required**";
-  if (row.name == "distribution")
-    return "**required**";
-  if (row.name == "failure_share")
-    return "0.01; searches: 0.5";
+  if (key.holds != StudyKey::Holds::value)
+    return "absent";
   return std::visit(
       [](const auto& held) -> std::string {
         if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
@@ -166,57 +100,103 @@ std::string default_words(const KeyRow& row) {
         else
           return fmt::format("`{}`", Json(held).dump());
       },
-      row.default_value);
+      default_of(key, blank));
 }
 
-std::string table_of(const std::vector<KeyRow>& rows) {
+std::string table_of(StudyKeys keys, const void* blank) {
   std::string page = "| key | unit | allowed | default | meaning |\n|---|---|---|---|---|\n";
-  for (const KeyRow& row : rows)
-    page += row.field ? fmt::format("| `{}` | {} | {} | {} | {} |\n", row.name, row.field->unit,
-                                    allowed_words(*row.field), default_words(row), row.field->sentence)
-                      : fmt::format("| `{}` |  | {} | {} | {} |\n", row.name, row.allowed, default_words(row),
-                                    row.sentence);
+  for (const StudyKey& key : keys)
+    page += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.field.path, key.field.unit, allowed_text(key),
+                        default_words(key, blank), key.field.sentence);
   return page;
 }
 
-std::string kinds_of(const StudyHeading& heading) {
+/// A heading of the page: kinds may have a table of the same name with keys of their own.
+struct Heading {
+  StudyTable table;
+  std::vector<const StudyKind*> kinds;
+};
+
+std::string in_words(const std::vector<const StudyKind*>& kinds) {
   std::string words;
-  for (std::size_t k = 0; k < study_kinds.size(); ++k)
-    if (heading.belongs_to(static_cast<StudyKind>(k)))
-      words += fmt::format("{}{}", words.empty() ? "" : ", ", study_kinds[k]);
+  for (const StudyKind* kind : kinds)
+    words += fmt::format("{}{}", words.empty() ? "" : ", ", kind->name());
+  return words;
+}
+
+/// Tables of one name together; those that a later kind adds stand before what follows them there.
+std::vector<std::vector<Heading>> headings_of(StudyKinds kinds) {
+  std::vector<std::vector<Heading>> all;
+  const auto find = [&](std::string_view name) {
+    return std::ranges::find_if(all, [&](const auto& h) { return h.front().table.name == name; });
+  };
+  const auto keys_of = [](const StudyTable& table) { return table.keys ? table.keys().data() : nullptr; };
+  for (const StudyKind* kind : kinds) {
+    const std::vector<StudyTable> tables = study_tables(*kind);
+    for (auto table = tables.begin(); table != tables.end(); ++table) {
+      auto known = find(table->name);
+      for (auto next = table + 1; known == all.end() && next != tables.end(); ++next)
+        if (const auto place = find(next->name); place != all.end()) {
+          known = all.insert(place, {Heading{*table, {}}});
+          break;
+        }
+      if (known == all.end())
+        known = all.insert(known, {Heading{*table, {}}});
+      auto heading =
+          std::ranges::find_if(*known, [&](const Heading& h) { return keys_of(h.table) == keys_of(*table); });
+      if (heading == known->end())
+        heading = known->insert(known->end(), {*table, {}});
+      heading->kinds.push_back(kind);
+    }
+  }
+  return all;
+}
+
+/// What differs from kind to kind: "failure_share: 0.5 in optimize, pareto; 0.01 in sweep".
+std::string failure_shares(StudyKinds kinds) {
+  std::vector<std::pair<double, std::vector<const StudyKind*>>> shares;
+  for (const StudyKind* kind : kinds) {
+    auto known = std::ranges::find(shares, kind->failure_share(), [](const auto& s) { return s.first; });
+    if (known == shares.end())
+      known = shares.insert(shares.end(), {kind->failure_share(), {}});
+    known->second.push_back(kind);
+  }
+  std::string words;
+  for (const auto& [share, of] : shares)
+    words += fmt::format("{}{} in {}", words.empty() ? "" : "; ", share, in_words(of));
   return words;
 }
 
 } // namespace
 
-Json study_json_schema() {
+Json study_json_schema(StudyKinds kinds) {
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
               {"title", "strainwave study file"},
               {"description", "The JSON image of a study file (TOML)"}};
-  Json kinds = Json::array();
-  for (std::size_t k = 0; k < study_kinds.size(); ++k) {
-    const auto kind = static_cast<StudyKind>(k);
-    Json one = object_of<StudyFile>();
-    one["title"] = study_kinds[k];
-    one["properties"]["kind"] = Json{{"const", study_kinds[k]}};
-    for (const StudyHeading& heading : study_headings()) {
-      if (!heading.belongs_to(kind))
-        continue;
-      const auto rows = rows_below(heading.name, kind);
-      Json below = rows.empty() ? Json{{"type", "object"}} : object_of(rows);
-      below["description"] = heading.sentence;
-      one["properties"][std::string(heading.name)] =
-          heading.repeated ? Json{{"type", "array"}, {"items", below}} : below;
-      if (heading.needed(kind))
-        one["required"].push_back(heading.name);
+  const std::vector<std::string_view> names = kind_names(kinds);
+  const std::vector<StudyKey> top = top_keys(names);
+  const StudyFile blank;
+  Json branches = Json::array();
+  for (const StudyKind* kind : kinds) {
+    Json one = object_of(top, &blank);
+    one["title"] = kind->name();
+    one["description"] = kind->sentence();
+    one["properties"]["kind"] = Json{{"const", kind->name()}};
+    for (const StudyTable& table : study_tables(*kind)) {
+      Json below = table.keys ? object_of(table.keys(), table.blank()) : Json{{"type", "object"}};
+      below["description"] = table.sentence;
+      one["properties"][std::string(table.name)] =
+          table.repeated ? Json{{"type", "array"}, {"items", below}} : below;
+      if (!table.missing.empty())
+        one["required"].push_back(table.name);
     }
-    kinds.push_back(one);
+    branches.push_back(one);
   }
-  schema["oneOf"] = kinds;
+  schema["oneOf"] = branches;
   return schema;
 }
 
-std::string study_reference_page() {
+std::string study_reference_page(StudyKinds kinds) {
   std::string page =
       "# The study file\n\n"
       "Made from the program's tables of keys by `strainwave schema --study --reference`; do not edit it by "
@@ -227,21 +207,24 @@ std::string study_reference_page() {
       "[studies.md](studies.md) and [optimisation.md](optimisation.md); `studies/gallery/` holds studies "
       "that run.\n"
       "Brackets show whether the end of a range belongs to it: [0, 1) is 0 ≤ x < 1.\n\n"
-      "## At the top of the file\n\n";
-  page += table_of(rows_of<StudyFile>());
-  for (const StudyHeading& heading : study_headings()) {
-    page += fmt::format("\n## {}{}{}\n\nKinds: {}. What it says: {}.\n", heading.repeated ? "[[" : "[",
-                        heading.name, heading.repeated ? "]]" : "]", kinds_of(heading), heading.sentence);
-    if (heading.name == "variable") {
-      page += "\nIn searches (optimize, pareto):\n\n";
-      page += table_of(rows_of<StudyVariable>());
+      "## Kinds of study\n\n| kind | what it does |\n|---|---|\n";
+  for (const StudyKind* kind : kinds)
+    page += fmt::format("| `{}` | {} |\n", kind->name(), kind->sentence());
+  const std::vector<std::string_view> names = kind_names(kinds);
+  const StudyFile blank;
+  page += "\n## At the top of the file\n\n";
+  page += table_of(top_keys(names), &blank);
+  for (const auto& headings : headings_of(kinds)) {
+    const StudyTable& first = headings.front().table;
+    page +=
+        fmt::format("\n## {}{}{}\n", first.repeated ? "[[" : "[", first.name, first.repeated ? "]]" : "]");
+    for (const Heading& heading : headings) {
       page +=
-          "\nIn sweeps; `values`, or `lower`, `upper` and `count`:\n\n" + table_of(rows_of<SweepVariable>());
-      continue;
-    }
-    if (const auto rows = rows_below(heading.name, StudyKind::optimize); !rows.empty()) {
-      page += "\n";
-      page += table_of(rows);
+          fmt::format("\nKinds: {}. What it says: {}.\n", in_words(heading.kinds), heading.table.sentence);
+      if (first.name == "limits")
+        page += fmt::format("Where a file does not say, failure_share is {}.\n", failure_shares(kinds));
+      if (heading.table.keys)
+        page.append("\n").append(table_of(heading.table.keys(), heading.table.blank()));
     }
   }
   return page;

@@ -9,9 +9,14 @@ namespace strainwave {
 
 namespace fs = std::filesystem;
 
-StudyReader::StudyReader(const std::string& name, bool reduced, const StudyVocabulary& vocabulary,
+StudyFile::StudyFile(const StudyKind& of_kind) : kind(&of_kind), own(of_kind.part()) {
+  limits.failure_share = of_kind.failure_share();
+}
+
+StudyReader::StudyReader(const std::string& name, StudyKinds kinds, bool reduced,
                          std::optional<std::string_view> gear_text)
-    : folder_(fs::path(name).parent_path()), vocabulary_(vocabulary), gear_text_(gear_text) {
+    : study_(*kinds.front()), folder_(fs::path(name).parent_path()), kinds_(kinds),
+      kind_names_(kind_names(kinds)), top_(top_keys(kind_names_)), gear_text_(gear_text) {
   study_.file = name;
   study_.reduced = reduced;
 }
@@ -20,98 +25,153 @@ StudyFile StudyReader::read(const toml::table& root) {
   read_kind(root);
   for (const auto& [key, node] : root)
     read_top(std::string(key.str()), key, node);
-  if (!given_.contains("limits.failure_share"))
-    study_.limits.failure_share = default_failure_share(study_.kind);
-  demand(study_, "", Place{1, 1});
-  demand_headings(root);
+  demand(top_, "", Place{1, 1});
+  demand_tables(root);
   read_gear(root);
   if (const toml::node* node = root.get("reduced"); node && node->is_table())
     read_reduced(*node->as_table());
   if (study_.load_cases.empty())
     take_loads_from_gear();
-  check_study(study_, places_, vocabulary_, faults_);
+  StudyChecker checker(study_, places_, faults_);
+  checker.check_loads();
+  study_.kind->check(checker);
   if (!faults_.empty())
     throw FileError(study_.file, std::move(faults_));
   return std::move(study_);
 }
 
-/// A search looks for the edge of what works; a sample that fails is a hole in a table.
-double default_failure_share(StudyKind kind) {
-  return kind == StudyKind::optimize || kind == StudyKind::pareto ? 0.5 : 0.01;
-}
-
-/// What a heading means depends on the kind, so it comes first; what is wrong with it is said by read_top().
+/// What a table means depends on the kind, so it comes first; what is wrong with it is said by read_top().
 void StudyReader::read_kind(const toml::table& root) {
-  const toml::node* kind = root.get("kind");
-  if (!kind || !kind->is_string())
-    return;
-  const auto known = std::find(study_kinds.begin(), study_kinds.end(), kind->as_string()->get());
-  if (known != study_kinds.end())
-    study_.kind = static_cast<StudyKind>(known - study_kinds.begin());
+  if (const toml::node* kind = root.get("kind"); kind && kind->is_string()) {
+    const auto known = std::ranges::find(kind_names_, std::string_view(kind->as_string()->get()));
+    if (known != kind_names_.end()) {
+      StudyFile study(*kinds_[static_cast<std::size_t>(known - kind_names_.begin())]);
+      study.file = study_.file;
+      study.reduced = study_.reduced;
+      study_ = std::move(study);
+    }
+  }
+  tables_ = study_tables(*study_.kind);
 }
 
-void StudyReader::demand_headings(const toml::table& root) {
-  for (const StudyHeading& heading : study_headings())
-    if (heading.needed(study_.kind) && !root.contains(heading.name))
-      fault({1, 1}, std::string(heading.name), std::string(heading.missing));
+const StudyTable* StudyReader::find_study_table(std::string_view name) const {
+  const auto found = std::ranges::find(tables_, name, &StudyTable::name);
+  return found == tables_.end() ? nullptr : &*found;
+}
+
+void StudyReader::demand_tables(const toml::table& root) {
+  for (const StudyTable& table : tables_)
+    if (!table.missing.empty() && !root.contains(table.name))
+      fault({1, 1}, std::string(table.name), std::string(table.missing));
 }
 
 void StudyReader::read_top(const std::string& name, const toml::key& key, const toml::node& node) {
   const Place place = place_of(key);
-  if (name == "kind" || name == "gear" || name == "seed")
-    return read_key(study_, "", name, place, node);
-  const auto headings = study_headings();
-  const auto heading =
-      std::find_if(headings.begin(), headings.end(), [&](const StudyHeading& h) { return h.name == name; });
-  if (heading == headings.end()) {
-    std::vector<std::string_view> legal{"kind", "gear", "seed"};
-    for (const StudyHeading& h : headings)
-      if (h.belongs_to(study_.kind))
-        legal.push_back(h.name);
-    const Nearest nearest = nearest_name(name, legal);
-    fault(place, name,
-          fmt::format(fmt::runtime(nearest.close ? "no such key or table; did you mean {}?"
-                                                 : "no such key or table; the nearest legal one is {}"),
-                      nearest.name),
-          std::string(nearest.name));
-    meant_.insert(std::string(nearest.name));
+  if (std::ranges::any_of(top_, [&](const StudyKey& top) { return top.field.path == name; }))
+    return read_key(top_, &study_, "", name, place, node);
+  if (const StudyTable* table = find_study_table(name)) {
+    if (table->repeated)
+      return read_tables(*table, place, node);
+    if (table->keys)
+      return read_table(table->keys(), table->at(study_, 0), name, place, node);
+    if (!node.is_table()) // read later, when the gear is there
+      fault(place, name, fmt::format("expected a table, opened by [{}], got {}", name, node_words(node)));
     return;
   }
-  if (!heading->belongs_to(study_.kind))
-    return fault(place, name,
-                 fmt::format("is of no use in a study of kind \"{}\"",
-                             study_kinds[static_cast<std::size_t>(study_.kind)]));
-  if (name == "override" || name == "reduced") { // read later, when the gear is there
-    if (!node.is_table())
-      fault(place, name, fmt::format("expected a table, opened by [{}], got {}", name, node_words(node)));
-  } else if (name == "load_case")
-    read_tables(study_.load_cases, name, place, node);
-  else if (name == "variable" && study_.kind == StudyKind::sweep)
-    read_tables(study_.sweep_variables, name, place, node);
-  else if (name == "variable")
-    read_tables(study_.variables, name, place, node);
-  else if (name == "constraint")
-    read_tables(study_.constraints, name, place, node);
-  else if (name == "source")
-    read_tables(study_.sources, name, place, node);
-  else if (name == "correlation")
-    read_tables(study_.correlations, name, place, node);
-  else if (name == "exceedance")
-    read_tables(study_.exceedances, name, place, node);
-  else if (name == "objective")
-    read_table(study_.objective, name, place, node);
-  else if (name == "pareto")
-    read_table(study_.pareto, name, place, node);
-  else if (name == "method")
-    read_table(study_.method, name, place, node);
-  else if (name == "sweep")
-    read_table(study_.sweep, name, place, node);
-  else if (name == "sampling")
-    read_table(study_.sampling, name, place, node);
-  else if (name == "sensitivity")
-    read_table(study_.sensitivity, name, place, node);
-  else if (name == "limits")
-    read_table(study_.limits, name, place, node);
+  for (const StudyKind* kind : kinds_)
+    for (const StudyTable& other : kind->tables())
+      if (other.name == name)
+        return fault(place, name, fmt::format("is of no use in a study of kind \"{}\"", study_.kind->name()));
+  std::vector<std::string_view> legal;
+  for (const StudyKey& top : top_)
+    legal.push_back(top.field.path);
+  for (const StudyTable& table : tables_)
+    legal.push_back(table.name);
+  const Nearest nearest = nearest_name(name, legal);
+  fault(place, name,
+        fmt::format(fmt::runtime(nearest.close ? "no such key or table; did you mean {}?"
+                                               : "no such key or table; the nearest legal one is {}"),
+                    nearest.name),
+        std::string(nearest.name));
+  meant_.insert(std::string(nearest.name));
+}
+
+void StudyReader::read_key(StudyKeys keys, void* table, const std::string& prefix, const std::string& name,
+                           Place key_place, const toml::node& node) {
+  std::vector<std::string_view> legal;
+  for (const StudyKey& key : keys) {
+    legal.push_back(key.field.path);
+    if (key.field.path != name)
+      continue;
+    const std::string path = prefix + name;
+    if (key.holds != StudyKey::Holds::value)
+      return read_compound(key, table, path, key_place, node);
+    given_.emplace(path, key_place);
+    if (const auto value = read_value(key.field, path, node, faults_)) {
+      key.write(table, *value);
+      places_[path] = place_of(node);
+    }
+    return;
+  }
+  const Nearest nearest = nearest_name(name, legal);
+  fault(key_place, prefix + name,
+        fmt::format(fmt::runtime(nearest.close ? "no such key; did you mean {}?"
+                                               : "no such key; the nearest legal key is {}"),
+                    nearest.name),
+        prefix + std::string(nearest.name));
+  meant_.insert(prefix + std::string(nearest.name));
+}
+
+void StudyReader::read_table(StudyKeys keys, void* table, const std::string& path, Place key_place,
+                             const toml::node& node) {
+  const toml::table* inside = node.as_table();
+  if (!inside)
+    return fault(key_place, path,
+                 fmt::format("expected a table, opened by [{}], got {}", path, node_words(node)));
+  places_[path] = place_of(node);
+  for (const auto& [key, value] : *inside)
+    read_key(keys, table, path + ".", std::string(key.str()), place_of(key), value);
+  demand(keys, path + ".", place_of(node));
+}
+
+void StudyReader::read_tables(const StudyTable& tables, Place key_place, const toml::node& node) {
+  const std::string name(tables.name);
+  const toml::array* array = node.as_array();
+  if (!array)
+    return fault(key_place, name,
+                 node.is_table()
+                     ? fmt::format("there may be several of these, so each is opened by [[{}]]", name)
+                     : fmt::format("expected tables, each opened by [[{}]], got {}", name, node_words(node)));
+  for (std::size_t i = 0; i < array->size(); ++i)
+    read_table(tables.keys(), tables.add(study_), fmt::format("{}[{}]", name, i), place_of(*array->get(i)),
+               *array->get(i));
+}
+
+void StudyReader::read_compound(const StudyKey& key, void* table, const std::string& path, Place key_place,
+                                const toml::node& node) {
+  if (key.holds == StudyKey::Holds::names)
+    read_names(*key.names(table), path, key_place, node);
+  else if (key.holds == StudyKey::Holds::one_of)
+    read_one_of(key, table, path, node);
+  else
+    read_inner(key.shapes.front(), table, path, key.example, node);
+}
+
+void StudyReader::read_inner(const StudyShape& shape, void* table, const std::string& path,
+                             std::string_view expected, const toml::node& node) {
+  given_.emplace(path, place_of(node));
+  void* const inner = shape.put(table);
+  if (!node.is_table())
+    return fault(place_of(node), path, fmt::format("expected {}, got {}", expected, node_words(node)));
+  read_table(shape.keys(), inner, path, place_of(node), node);
+}
+
+void StudyReader::demand(StudyKeys keys, const std::string& prefix, Place place) {
+  for (const StudyKey& key : keys) {
+    const std::string path = prefix + std::string(key.field.path);
+    if (key.field.required && !given_.contains(path) && !meant_.contains(path))
+      fault(place, path, fmt::format("missing; expected {}: {}", expectation(key.field), key.field.sentence));
+  }
 }
 
 void StudyReader::read_names(std::vector<std::string>& names, const std::string& path, Place key_place,
@@ -134,42 +194,28 @@ void StudyReader::read_names(std::vector<std::string>& names, const std::string&
   }
 }
 
-template <class Shape>
-void StudyReader::read_shape(Distribution& distribution, const std::string& path, const toml::node& node) {
-  Shape shape;
-  read_inner(shape, path, "{ … }", node);
-  distribution = shape;
-}
-
-void StudyReader::read_distribution(Distribution& distribution, const std::string& path,
-                                    const toml::node& node) {
+void StudyReader::read_one_of(const StudyKey& key, void* table, const std::string& path,
+                              const toml::node& node) {
   given_.emplace(path, place_of(node));
-  const toml::table* table = node.as_table();
-  if (!table || table->size() != 1)
-    return fault(
-        place_of(node), path,
-        fmt::format(
-            "expected one distribution, for example {{ normal = {{ mean = 0.0, std = 1.0 }} }}, got {}",
-            table ? fmt::format("{} of them", table->size()) : node_words(node)));
+  const toml::table* inside = node.as_table();
+  if (!inside || inside->size() != 1)
+    return fault(place_of(node), path,
+                 fmt::format("expected one {}, for example {}, got {}", key.what, key.example,
+                             inside ? fmt::format("{} of them", inside->size()) : node_words(node)));
   places_[path] = place_of(node);
-  const std::string name(table->begin()->first.str());
-  const Place name_place = place_of(table->begin()->first);
-  const toml::node& inside = table->begin()->second;
+  const std::string name(inside->begin()->first.str());
   const std::string below = path + "." + name;
-  using Read = void (StudyReader::*)(Distribution&, const std::string&, const toml::node&);
-  static constexpr std::array<Read, distribution_names.size()> readers{
-      &StudyReader::read_shape<Normal>,    &StudyReader::read_shape<TruncatedNormal>,
-      &StudyReader::read_shape<Uniform>,   &StudyReader::read_shape<Triangular>,
-      &StudyReader::read_shape<Lognormal>, &StudyReader::read_shape<Tabulated>};
-  const auto known = std::find(distribution_names.begin(), distribution_names.end(), name);
-  if (known != distribution_names.end())
-    return (this->*readers[static_cast<std::size_t>(known - distribution_names.begin())])(distribution, below,
-                                                                                          inside);
-  const Nearest nearest = nearest_name(name, distribution_names);
-  fault(name_place, below,
-        fmt::format(fmt::runtime(nearest.close ? "no such distribution; did you mean {}?"
-                                               : "no such distribution; the nearest legal one is {}"),
-                    nearest.name),
+  std::vector<std::string_view> legal;
+  for (const StudyShape& shape : key.shapes) {
+    if (shape.name == name)
+      return read_inner(shape, table, below, "{ … }", inside->begin()->second);
+    legal.push_back(shape.name);
+  }
+  const Nearest nearest = nearest_name(name, legal);
+  fault(place_of(inside->begin()->first), below,
+        fmt::format(fmt::runtime(nearest.close ? "no such {}; did you mean {}?"
+                                               : "no such {}; the nearest legal one is {}"),
+                    key.what, nearest.name),
         path + "." + std::string(nearest.name));
 }
 
@@ -209,32 +255,35 @@ void StudyReader::take_loads_from_gear() {
           "there is no load: neither a [[load_case]] here nor a torque or rotation in the gear's [load]");
 }
 
-StudyFile parse_study(std::string_view text, const std::string& name, bool reduced,
-                      const StudyVocabulary& vocabulary) {
+StudyFile parse_study(std::string_view text, const std::string& name, StudyKinds kinds, bool reduced) {
   const toml::table root = parse_toml(text, name);
   if (root.empty())
     throw FileError(
         name, {{{1, 1}, "", "the file gives no key; expected kind, gear, [[variable]], [objective] …", ""}});
-  return StudyReader(name, reduced, vocabulary).read(root);
+  return StudyReader(name, kinds, reduced).read(root);
 }
 
 StudyFile restore_study(std::string_view text, std::string_view gear_text, const std::string& name,
-                        const StudyVocabulary& vocabulary) {
-  return StudyReader(name, false, vocabulary, gear_text).read(parse_toml(text, name));
+                        StudyKinds kinds) {
+  return StudyReader(name, kinds, false, gear_text).read(parse_toml(text, name));
 }
 
-bool is_study_text(std::string_view text) {
+bool is_study_text(std::string_view text, StudyKinds kinds) {
   try {
     const toml::table root = parse_toml(text, "");
-    return root.contains("kind") || root.contains("gear") || root.contains("variable") ||
-           root.contains("objective") || root.contains("source");
+    return root.contains("kind") || root.contains("gear") ||
+           std::ranges::any_of(kinds, [&](const StudyKind* kind) {
+             return std::ranges::any_of(kind->tables(), [&](const StudyTable& table) {
+               return !find_table(table.name) && root.contains(table.name);
+             });
+           });
   } catch (const FileError&) {
     return false;
   }
 }
 
-StudyFile load_study(const std::string& path, bool reduced, const StudyVocabulary& vocabulary) {
-  return parse_study(read_text_file(path, "study file"), path, reduced, vocabulary);
+StudyFile load_study(const std::string& path, StudyKinds kinds, bool reduced) {
+  return parse_study(read_text_file(path, "study file"), path, kinds, reduced);
 }
 
 } // namespace strainwave

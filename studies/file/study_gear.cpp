@@ -4,10 +4,6 @@
 
 namespace strainwave {
 
-bool is_sampled(StudyKind kind) {
-  return kind != StudyKind::optimize && kind != StudyKind::pareto;
-}
-
 Gear gear_with_loads(const StudyFile& study) {
   Gear gear = study.gear;
   gear.load.torque_nm.clear();

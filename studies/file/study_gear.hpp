@@ -7,9 +7,6 @@
 
 namespace strainwave {
 
-/// Whether the rows are known in advance (sweep, monte_carlo, sensitivity).
-bool is_sampled(StudyKind kind);
-
 /// The loads of a study: cases with the same phases and direction share one analysis.
 std::vector<Load> study_loads(const StudyFile& study);
 

@@ -1,9 +1,10 @@
 #include "strainwave/studies/report/report.hpp"
 
 #include "strainwave/common/files/whole_file.hpp"
-#include "strainwave/studies/file/study_gear.hpp"
+#include "strainwave/studies/report/page.hpp"
+#include "strainwave/studies/report/reported_kind.hpp"
 #include "strainwave/studies/results/result_folder.hpp"
-#include "strainwave/studies/tables/run.hpp"
+#include "strainwave/studies/results/results_reader.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -53,8 +54,8 @@ std::string head(const StudyFile& study, const Json& result, const StoredResults
   std::string page = fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title><style>{1}</style>"
       "</head>\n<body>\n<h1>{0}: {2} of “{3}”{4}</h1>\n",
-      escape_html(name), style, study_kinds[static_cast<std::size_t>(study.kind)],
-      escape_html(study.gear.name), study.reduced ? " (reduced study)" : "");
+      escape_html(name), style, study.kind->name(), escape_html(study.gear.name),
+      study.reduced ? " (reduced study)" : "");
   const Json& e = result["evaluations"];
   page += fmt::format("<p>{} rows; {} failed. Fidelity {}. Seed {}. Version {}, plan {}.</p>\n", results.rows,
                       e.value("failed", 0ULL), choice_name(study.gear.contact.fidelity), study.seed,
@@ -68,7 +69,7 @@ std::string head(const StudyFile& study, const Json& result, const StoredResults
   return page;
 }
 
-std::string failures(const Json& result, const StudyFile& study, const fs::path& folder) {
+std::string failures(const Json& result, const fs::path& folder) {
   if (!result.contains("failures") || result["failures"].empty())
     return "";
   std::string page = "<h2>Evaluations without a result</h2>\n<p>They are left out of every number "
@@ -79,7 +80,7 @@ std::string failures(const Json& result, const StudyFile& study, const fs::path&
                         escape_html(f.value("status", "")), f.value("count", 0ULL),
                         escape_html(f.value("example", "")));
   page += "</table>\n";
-  if (is_sampled(study.kind))
+  if (result["failures"][0].contains("example_row"))
     page += fmt::format("<pre>strainwave eval --from {} --index {}</pre>\n", escape_html(folder.string()),
                         result["failures"][0].value("example_row", 0ULL));
   return page;
@@ -87,38 +88,16 @@ std::string failures(const Json& result, const StudyFile& study, const fs::path&
 
 } // namespace
 
-std::string escape_html(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-    case '&':
-      safe += "&amp;";
-      break;
-    case '<':
-      safe += "&lt;";
-      break;
-    case '>':
-      safe += "&gt;";
-      break;
-    case '"':
-      safe += "&quot;";
-      break;
-    default:
-      safe += c;
-    }
-  }
-  return safe;
-}
-
-std::string write_report(const fs::path& folder) {
-  const StudyFile study = read_plan(folder);
+std::string write_report(const fs::path& folder, StudyKinds kinds) {
+  const StudyFile study = read_plan(folder, kinds);
+  const auto& kind = dynamic_cast<const ReportedKind&>(*study.kind);
   const StoredResults results = read_results_table(folder / "results.h5");
   const Json result = Json::parse(text_of(folder / "result.json"), nullptr, false);
   if (!result.is_object() || !result.contains("evaluations"))
     throw std::system_error(EIO, std::generic_category(), (folder / "result.json").string() + " is damaged");
-  const std::vector<Figure> figures = report_figures(study, results, result);
+  const std::vector<Figure> figures = kind.report_figures(study, results, result);
   const Drawn drawn = draw(figures, folder / "figures");
-  std::string page = head(study, result, results, folder) + report_tables(study, result);
+  std::string page = head(study, result, results, folder) + kind.report_tables(study, result);
   std::string pictures;
   for (const Figure& figure : figures)
     if (const std::string svg = text_of(folder / "figures" / (figure.name + ".svg")); !svg.empty())
@@ -128,7 +107,7 @@ std::string write_report(const fs::path& folder) {
     page += "<h2>Figures</h2>\n" + pictures;
   else if (!drawn.note.empty())
     page += fmt::format("<p class=bad>{}</p>\n", escape_html(drawn.note));
-  page += failures(result, study, folder);
+  page += failures(result, folder);
   page += fmt::format("<h2>One evaluation again</h2>\n<p>Every row of results.h5 can be made again, bit for "
                       "bit; <code>--gear</code> writes it "
                       "as a gear file.</p>\n<pre>strainwave eval --from {} --index 0 --gear row.toml</pre>\n",

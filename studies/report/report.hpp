@@ -3,29 +3,16 @@
 // one evaluation again. Made from the folder alone (plan.json, result.json, results.h5); the figures are
 // drawn by gnuplot and are part of the page, which needs no network.
 
-#include "strainwave/model/export/figure.hpp"
 #include "strainwave/studies/file/study.hpp"
-#include "strainwave/studies/results/results_reader.hpp"
-
-#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace strainwave {
 
 /// Writes DIR/report.html and DIR/figures/. Returns a sentence where figures are missing (no gnuplot); empty:
 /// all there. Throws FileError without a plan, std::system_error without results or where nothing can be
 /// written.
-std::string write_report(const std::filesystem::path& folder);
-
-/// The figures of a kind; `result` is result.json.
-std::vector<Figure> report_figures(const StudyFile& study, const StoredResults& results,
-                                   const nlohmann::ordered_json& result);
-
-/// Tables of the page.
-std::string report_tables(const StudyFile& study, const nlohmann::ordered_json& result);
-std::string escape_html(std::string_view text);
+std::string write_report(const std::filesystem::path& folder, StudyKinds kinds);
 
 } // namespace strainwave

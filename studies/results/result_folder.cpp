@@ -5,6 +5,7 @@
 #include "strainwave/common/rows/merge.hpp"
 #include "strainwave/model/gear/fields.hpp"
 #include "strainwave/model/gear_file/gear_file.hpp"
+#include "strainwave/studies/file/kind.hpp"
 #include "strainwave/version.hpp"
 
 #include <fmt/format.h>
@@ -23,30 +24,6 @@ constexpr const char* plan_name = "plan.json";
 nlohmann::json read_json(const fs::path& path) {
   std::ifstream file(path);
   return nlohmann::json::parse(file, nullptr, false);
-}
-
-nlohmann::ordered_json inputs_of(const StudyFile& study) {
-  auto inputs = nlohmann::ordered_json::array();
-  for (const StudyVariable& v : study.variables)
-    inputs.push_back({{"path", v.path}, {"lower", v.lower}, {"upper", v.upper}});
-  for (const SweepVariable& v : study.sweep_variables)
-    inputs.push_back({{"path", v.path}, {"values", sweep_values(v)}});
-  for (const StudySource& source : study.sources)
-    inputs.push_back(
-        {{"source", source.name}, {"kind", source_kind_names[static_cast<std::size_t>(source.kind)]}});
-  return inputs;
-}
-
-std::string rule_of(const StudyFile& study) {
-  switch (study.kind) {
-  case StudyKind::sweep:
-    return study.sweep.mode == SweepMode::list ? "value i of every variable" : "every value with every other";
-  case StudyKind::monte_carlo:
-  case StudyKind::sensitivity:
-    return "row k from (seed, k, source) alone";
-  default:
-    return "chosen one after the other by the method";
-  }
 }
 
 } // namespace
@@ -91,20 +68,20 @@ void ResultFolder::write_plan(const StudyFile& study) const {
   if (known.is_object() && known.value("hash", "") == hash_text(plan_hash(study)))
     return;
   nlohmann::ordered_json plan;
-  plan["kind"] = study_kinds[static_cast<std::size_t>(study.kind)];
+  plan["kind"] = study.kind->name();
   plan["name"] = fs::path(study.file).stem().string();
   plan["version"] = library_version;
   plan["hash"] = hash_text(plan_hash(study));
   plan["seed"] = study.seed;
   plan["reduced"] = study.reduced;
-  plan["inputs"] = inputs_of(study);
-  plan["points"] = rule_of(study);
+  plan["inputs"] = study.kind->plan_inputs(study);
+  plan["points"] = study.kind->plan_points(study);
   plan["study"] = write_study(study);
   plan["gear"] = write_gear(study.gear);
   write_text(plan_name, plan.dump(2) + "\n");
 }
 
-StudyFile read_plan(const fs::path& folder, const StudyVocabulary& vocabulary) {
+StudyFile read_plan(const fs::path& folder, StudyKinds kinds) {
   const std::string path = (folder / plan_name).string();
   const auto refuse = [&](std::string sentence) -> FileError {
     return FileError(path, {{{1, 1}, "", std::move(sentence), ""}});
@@ -119,7 +96,7 @@ StudyFile read_plan(const fs::path& folder, const StudyVocabulary& vocabulary) {
     throw refuse(fmt::format("was made by version {}, this is {}; use that version or run the study again",
                              plan["version"].get<std::string>(), library_version));
   StudyFile study =
-      restore_study(plan["study"].get<std::string>(), plan["gear"].get<std::string>(), path, vocabulary);
+      restore_study(plan["study"].get<std::string>(), plan["gear"].get<std::string>(), path, kinds);
   study.file = plan["name"].get<std::string>() + ".toml";
   study.reduced = plan.value("reduced", false);
   if (hash_text(plan_hash(study)) != plan["hash"])

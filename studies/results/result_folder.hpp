@@ -43,7 +43,7 @@ std::string known_verdict(const std::filesystem::path& folder);
 
 /// The study of a folder, from plan.json alone. Throws FileError where there is no plan or one of another
 /// version of the program.
-StudyFile read_plan(const std::filesystem::path& folder, const StudyVocabulary& vocabulary = {});
+StudyFile read_plan(const std::filesystem::path& folder, StudyKinds kinds);
 
 /// Identifies a study: its resolved text (without the place of the gear file), the bits of its gear, and the
 /// program's version.

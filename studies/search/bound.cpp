@@ -38,7 +38,8 @@ Demands demands(const OptimisationReport& report) {
 
 /// Torques in the drive direction alone.
 bool is_bounded(const StudyFile& study, const std::vector<Load>& loads) {
-  return study.objective.output == "peak_force_n" && study.objective.goal == Goal::minimise &&
+  return study.part<SearchPart>().objective.output == "peak_force_n" &&
+         study.part<SearchPart>().objective.goal == Goal::minimise &&
          std::all_of(loads.begin(), loads.end(), [](const Load& load) {
            return load.rotation_rad.empty() && load.direction == Direction::drive;
          });

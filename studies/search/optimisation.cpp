@@ -34,7 +34,7 @@ std::optional<Failure> find_fault_of_baseline(const Evaluation& baseline) {
 
 std::vector<Constraint> constraints_of(const StudyFile& study) {
   std::vector<Constraint> constraints;
-  for (const StudyConstraint& c : study.constraints)
+  for (const StudyConstraint& c : study.part<SearchPart>().constraints)
     constraints.push_back({.output = c.output,
                            .min = c.min,
                            .max = c.max,
@@ -47,7 +47,7 @@ std::vector<Constraint> constraints_of(const StudyFile& study) {
 std::vector<LimitReport> limits_of(const StudyFile& study, const Problem& problem) {
   std::vector<LimitReport> reports;
   std::size_t k = 0;
-  for (const StudyConstraint& c : study.constraints) {
+  for (const StudyConstraint& c : study.part<SearchPart>().constraints) {
     for (const auto& plain : {c.min, c.max})
       if (plain)
         reports.push_back({problem.limits()[k++], ""});
@@ -151,7 +151,7 @@ std::vector<FailureCount> count_failures(const std::vector<StoredPoint>& points)
 
 DesignSpace study_design(const StudyFile& study) {
   std::vector<DesignVariable> variables;
-  for (const StudyVariable& v : study.variables) {
+  for (const StudyVariable& v : study.part<SearchPart>().variables) {
     const NumberPath path(v.path);
     DesignVariable variable{.path = path,
                             .lower = v.lower,
@@ -167,15 +167,17 @@ DesignSpace study_design(const StudyFile& study) {
 }
 
 Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOptions& options) {
+  const RunContext& context = options.context;
   const auto begin = std::chrono::steady_clock::now();
   const DesignSpace design = study_design(study);
   const std::vector<Load> loads = study_loads(study);
-  const ForwardOptions forward_options{.disk_cache = options.disk_cache, .threads = options.threads};
+  const ForwardOptions forward_options{.disk_cache = context.disk_cache, .threads = context.threads};
   const auto forward = std::make_shared<const ForwardModel>(forward_options);
-  GearEvaluator model(study.gear, design, loads, forward, options.warn);
+  GearEvaluator model(study.gear, design, loads, forward, context.warn);
   OptimisationReport report;
   report.study = study;
-  report.method = study.method.name.empty() ? std::string(global_method) : study.method.name;
+  const auto& search = study.part<SearchPart>();
+  report.method = search.method.name.empty() ? std::string(global_method) : search.method.name;
   report.baseline = model.evaluate_base();
   if (auto fault = find_fault_of_baseline(report.baseline))
     return *fault;
@@ -186,29 +188,29 @@ Outcome<OptimisationReport> run_optimisation(const StudyFile& study, const RunOp
     journal.emplace(options.journal, plan_hash(study), search_model_hash(), store);
     report.damage = journal->damage();
   }
-  const Objective objective{study.objective.output, study.objective.goal == Goal::maximise};
+  const Objective objective{search.objective.output, search.objective.goal == Goal::maximise};
   const Problem problem(design, store, objective, constraints_of(study), report.baseline);
   report.limits = limits_of(study, problem);
   // At least one new evaluation in every run: else runs shorter than the baseline would never come to an end.
-  const auto stop = [&] { return options.stop && options.stop() && store.counts().done > 0; };
-  Monitor monitor(static_cast<std::size_t>(study.method.budget), stop, options.progress);
+  const auto stop = [&] { return context.stop && context.stop() && store.counts().done > 0; };
+  Monitor monitor(static_cast<std::size_t>(search.method.budget), stop, options.progress);
   GearEvaluator fresh(study.gear, design, loads, forward_options); // shares nothing with the search
   const OptimiseSettings settings{.search = {.method = report.method,
-                                             .budget = static_cast<std::size_t>(study.method.budget),
-                                             .tolerance = study.method.tolerance,
+                                             .budget = static_cast<std::size_t>(search.method.budget),
+                                             .tolerance = search.method.tolerance,
                                              .seed = static_cast<std::uint64_t>(study.seed)},
-                                  .starts = static_cast<std::size_t>(study.method.starts),
-                                  .threads = options.threads,
+                                  .starts = static_cast<std::size_t>(search.method.starts),
+                                  .threads = context.threads,
                                   .known = unmodified(design, study.gear)};
-  if (study.kind == StudyKind::pareto) {
-    const Objective second{study.pareto.output, study.pareto.goal == Goal::maximise};
-    const auto points = static_cast<std::size_t>(study.pareto.points);
+  if (const auto* two = study.find_part<ParetoPart>()) {
+    const Objective second{two->pareto.output, two->pareto.goal == Goal::maximise};
+    const auto points = static_cast<std::size_t>(two->pareto.points);
     const auto front = pareto_front(problem, second, {.each = settings, .points = points}, fresh, monitor);
     report_front(report, design, front);
   } else {
     report_best(report, design, optimise(problem, settings, fresh, monitor).judgement);
     report_bound(report, design, loads, *forward);
-    if (report.best_gear && !(options.stop && options.stop()))
+    if (report.best_gear && !(context.stop && context.stop()))
       report.variants = optimum_variants(report.study.gear, *report.best_gear, loads, *forward);
   }
   if (journal)

@@ -1,11 +1,12 @@
 #pragma once
 // Runs a study of kind "optimize" or "pareto": from the file to judged optima beside the unmodified gear.
 
+#include "strainwave/common/threads/run_context.hpp"
 #include "strainwave/optimize/gear/gear_bound.hpp"
 #include "strainwave/optimize/gear/gear_evaluator.hpp"
 #include "strainwave/optimize/plans/optimise.hpp"
 #include "strainwave/optimize/problem/evaluation_store.hpp"
-#include "strainwave/studies/file/study.hpp"
+#include "strainwave/studies/search/search.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -16,12 +17,9 @@
 namespace strainwave {
 
 struct RunOptions {
-  int threads = 0; ///< 0: all cores
-  bool disk_cache = true;
+  RunContext context = {};
   std::filesystem::path journal = {}; ///< kept there and answered from there; empty: nothing is kept
-  std::function<bool()> stop;
-  std::function<void(const SearchProgress&)> progress;
-  std::function<void(const std::string&)> warn;
+  std::function<void(const SearchProgress&)> progress = {};
 };
 
 /// A number of the gear before and after, by its path.

@@ -41,7 +41,7 @@ void write_results_file(const OptimisationReport& report, const std::filesystem:
   if (report.points.empty())
     return; // stopped before the first evaluation
   ResultsTable results;
-  for (std::size_t i = 0; i < report.study.variables.size(); ++i)
+  for (std::size_t i = 0; i < report.study.part<SearchPart>().variables.size(); ++i)
     results.inputs.push_back({report.inputs[i].path, plain_unit(report.inputs[i].unit)});
   for (const Response& response : gear_responses())
     results.outputs.push_back({std::string(response.name), plain_unit(response.unit)});

@@ -54,11 +54,11 @@ Json certificate_json(const Certificate& c) {
 
 /// One line for each design: the two aims, the variables, the verdict.
 void front_table(const OptimisationReport& report, Out out) {
-  const std::string& first = report.study.objective.output;
-  const std::string& second = report.study.pareto.output;
+  const std::string& first = report.study.part<SearchPart>().objective.output;
+  const std::string& second = report.study.part<ParetoPart>().pareto.output;
   fmt::format_to(out, "\n  Front: {} against {}\n  {:>14} {:>14}", first, second, first.substr(0, 14),
                  second.substr(0, 14));
-  const std::size_t variables = report.study.variables.size();
+  const std::size_t variables = report.study.part<SearchPart>().variables.size();
   for (std::size_t i = 0; i < variables; ++i)
     fmt::format_to(out, " {:>12}", fmt::format("input {}", i + 1));
   fmt::format_to(out, "  verdict\n");
@@ -95,7 +95,7 @@ void variant_table(const OptimisationReport& report, Out out) {
   const auto value = [&](const Evaluation& e, std::string_view name) {
     return e.ok ? number_text(e.values[*find_response(responses, name)]) : std::string("–");
   };
-  const std::string& aim = report.study.objective.output;
+  const std::string& aim = report.study.part<SearchPart>().objective.output;
   fmt::format_to(out, "\n  {:<22} {:>30} {:>30} {:>24}\n", "The optimum in other models", aim, "rotation_rad",
                  "min_backlash_um");
   for (const ModelVariant& v : report.variants) {
@@ -130,10 +130,12 @@ std::string optimisation_table(const OptimisationReport& report, const std::stri
   std::string text;
   const Out out(text);
   fmt::format_to(out, "{}: {} {} of \"{}\"{}\n", std::filesystem::path(study.file).stem().string(),
-                 study.objective.goal == Goal::maximise ? "largest" : "least", study.objective.output,
-                 study.gear.name, study.reduced ? " (reduced study)" : "");
+                 study.part<SearchPart>().objective.goal == Goal::maximise ? "largest" : "least",
+                 study.part<SearchPart>().objective.output, study.gear.name,
+                 study.reduced ? " (reduced study)" : "");
   fmt::format_to(out, "fidelity {}, {} variable{}, method {}\n\n", choice_name(study.gear.contact.fidelity),
-                 study.variables.size(), study.variables.size() == 1 ? "" : "s", report.method);
+                 study.part<SearchPart>().variables.size(),
+                 study.part<SearchPart>().variables.size() == 1 ? "" : "s", report.method);
 
   const auto headings = [&](const char* what) {
     fmt::format_to(out, "  {:<46} {:>8} {:>12} {:>12} {:>10}\n", what, "unit", "unmodified", "optimised",
@@ -151,7 +153,7 @@ std::string optimisation_table(const OptimisationReport& report, const std::stri
       continue;
     line(out, responses[i].name, responses[i].unit, report.baseline.values[i],
          report.best ? std::optional(report.best->values[i]) : std::nullopt,
-         responses[i].name == study.objective.output ? "<- objective" : "");
+         responses[i].name == study.part<SearchPart>().objective.output ? "<- objective" : "");
   }
   if (!report.limits.empty())
     fmt::format_to(out, "\n  Limits\n");
@@ -188,8 +190,8 @@ std::string optimisation_table(const OptimisationReport& report, const std::stri
 
 Json optimisation_json(const OptimisationReport& report, const std::string& folder) {
   Json json;
-  const bool pareto = report.study.kind == StudyKind::pareto;
-  json["kind"] = pareto ? "pareto" : "optimize";
+  const bool pareto = report.study.find_part<ParetoPart>() != nullptr;
+  json["kind"] = report.study.kind->name();
   json["study"] = report.study.file;
   json["reduced"] = report.study.reduced;
   json["method"] = report.method;

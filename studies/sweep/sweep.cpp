@@ -26,7 +26,7 @@ namespace {
 /// What one variable of the sweep moves.
 struct Knob {
   std::optional<NumberPath> number; ///< nothing: a load
-  SweepLoad load;
+  LoadPath load;
   std::optional<NumberPath> linked;
   double ratio = 1.0;
 };
@@ -42,7 +42,7 @@ int cost_rank(std::string_view path) {
 
 Knob knob_of(const SweepVariable& v) {
   Knob knob;
-  if (const auto load = sweep_load(v.path))
+  if (const auto load = load_path(v.path))
     knob.load = *load;
   else
     knob.number.emplace(v.path);
@@ -56,13 +56,13 @@ Knob knob_of(const SweepVariable& v) {
 /// Which value of every variable a row takes. Shared by the rows, the model and the reports.
 class SweepGrid {
 public:
-  explicit SweepGrid(const StudyFile& study) : list_(study.sweep.mode == SweepMode::list) {
-    for (const SweepVariable& v : study.sweep_variables)
+  explicit SweepGrid(const StudyFile& study) : list_(study.part<SweepPart>().sweep.mode == SweepMode::list) {
+    for (const SweepVariable& v : study.part<SweepPart>().variables)
       values_.push_back(sweep_values(v));
     for (std::size_t i = 0; i < values_.size(); ++i)
       order_.push_back(i);
-    std::ranges::stable_sort(order_, {},
-                             [&](std::size_t i) { return cost_rank(study.sweep_variables[i].path); });
+    std::ranges::stable_sort(
+        order_, {}, [&](std::size_t i) { return cost_rank(study.part<SweepPart>().variables[i].path); });
     rows_ = values_.front().size();
     if (list_)
       return;
@@ -80,7 +80,7 @@ public:
   std::uint64_t cups(const StudyFile& study) const {
     std::uint64_t cups = 1;
     for (std::size_t i = 0; i < values_.size(); ++i)
-      if (cost_rank(study.sweep_variables[i].path) == 0)
+      if (cost_rank(study.part<SweepPart>().variables[i].path) == 0)
         cups *= list_ ? (cups > 1 ? 1 : rows_) : values_[i].size();
     return cups;
   }
@@ -108,15 +108,15 @@ private:
 
 class SweepModel : public RowModel {
 public:
-  SweepModel(const StudyFile& study, const RowOptions& options)
-      : study_(study), warn_(options.warn),
+  SweepModel(const StudyFile& study, const RunContext& context)
+      : study_(study), warn_(context.warn),
         forward_(std::make_shared<ForwardModel>(
-            ForwardOptions{.disk_cache = options.disk_cache, .threads = options.threads})) {
-    for (const SweepVariable& v : study.sweep_variables)
+            ForwardOptions{.disk_cache = context.disk_cache, .threads = context.threads})) {
+    for (const SweepVariable& v : study.part<SweepPart>().variables)
       knobs_.push_back(knob_of(v));
     const auto loads = study_loads(study);
     const auto wanted = [&](std::string_view name) {
-      const auto& names = study.sweep.outputs;
+      const auto& names = study.part<SweepPart>().sweep.outputs;
       return names.empty() ? !find_unavailable_response(name, study.gear, loads)
                            : std::ranges::find(names, name) != names.end();
     };
@@ -198,12 +198,23 @@ private:
 
 } // namespace
 
-Outcome<SampledStudy> make_sweep_rows(const StudyFile& study, const RowOptions& options) {
+std::vector<double> sweep_values(const SweepVariable& v) {
+  if (!v.values.empty() || !v.lower || !v.upper || !v.count)
+    return v.values;
+  std::vector<double> values(static_cast<std::size_t>(*v.count));
+  for (std::size_t i = 0; i < values.size(); ++i) // both ends exactly
+    values[i] = i + 1 == values.size() ? *v.upper
+                                       : *v.lower + (*v.upper - *v.lower) * static_cast<double>(i) /
+                                                        static_cast<double>(*v.count - 1);
+  return values;
+}
+
+Outcome<SampledStudy> make_sweep_rows(const StudyFile& study, const RunContext& context) {
   const auto grid = std::make_shared<const SweepGrid>(study);
-  auto model = std::make_unique<SweepModel>(study, options);
+  auto model = std::make_unique<SweepModel>(study, context);
   SampledStudy sampled;
-  for (const SweepVariable& v : study.sweep_variables) {
-    const auto load = sweep_load(v.path);
+  for (const SweepVariable& v : study.part<SweepPart>().variables) {
+    const auto load = load_path(v.path);
     sampled.input_columns.push_back(
         {v.path, plain_unit(load ? (load->torque ? "N·m" : "rad") : NumberPath(v.path).field().unit)});
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Studies whose rows are known in advance (sweep, monte_carlo, sensitivity): what run_rows() needs, what
+// Studies whose rows are known in advance: what run_rows() needs, what
 // results.h5 shows, and what is asked of the finished table. One maker for each kind; everything that follows
 // (engine, journal, shards, statistics, reports) is the same for all of them.
 //
@@ -16,6 +16,7 @@
 #include "strainwave/common/core/outcome.hpp"
 #include "strainwave/common/rows/row_model.hpp"
 #include "strainwave/common/sampling/morris_points.hpp"
+#include "strainwave/common/threads/run_context.hpp"
 #include "strainwave/model/gear/gear.hpp"
 #include "strainwave/studies/file/study.hpp"
 #include "strainwave/studies/results/results_table.hpp"
@@ -27,12 +28,6 @@
 #include <vector>
 
 namespace strainwave {
-
-struct RowOptions {
-  int threads = 0; ///< for the finite elements while the rows are prepared; 0: all cores
-  bool disk_cache = true;
-  std::function<void(const std::string&)> warn = {}; ///< sentences for people, from any thread
-};
 
 /// Local sensitivity: how an output follows an input.
 struct LocalElasticity {

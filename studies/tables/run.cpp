@@ -93,22 +93,28 @@ void write_sampled_results(const ResultFolder& folder, const SampledStudy& rows,
   folder.write_text("result.json", sampled_json(report, folder.path().string()).dump(2) + "\n");
 }
 
-Outcome<SampledReport> run_sampled(const StudyFile& study, const RowMaker& make_rows,
-                                   const ResultFolder& folder, const SampledOptions& options) {
+void add_answers(SampledReport& report, const RowKind& kind, const SampledStudy& rows,
+                 const RowTable& table) {
+  report.ranges = output_ranges(rows, table);
+  report.answer = kind.answer(report.study, rows, table);
+}
+
+Outcome<SampledReport> run_sampled(const StudyFile& study, const RowKind& kind, const ResultFolder& folder,
+                                   const SampledOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
-  const int threads = usable_threads(options.threads);
-  auto made = make_rows(study, {.threads = threads, .disk_cache = options.disk_cache, .warn = options.warn});
+  const RunContext& context = options.context;
+  auto made = kind.make_rows(study, context);
   if (!made)
     return made.failure();
   const SampledStudy& rows = *made;
-  EngineOptions engine{.threads = threads, .slice_rows = rows.slice_rows};
+  EngineOptions engine{.threads = usable_threads(context.threads), .slice_rows = rows.slice_rows};
   if (options.time_limit_s) {
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
     engine.time_limit_s = std::max(0.0, *options.time_limit_s - spent.count());
   }
   engine.failure_share = study.limits.failure_share;
-  engine.enough = stop_rule_of(study, rows);
-  engine.stop = options.stop;
+  engine.enough = kind.enough(study, rows);
+  engine.stop = context.stop;
   engine.progress = options.progress;
   engine.progress_every_s = 0.2;
   engine.overdue = options.overdue;
@@ -124,7 +130,7 @@ Outcome<SampledReport> run_sampled(const StudyFile& study, const RowMaker& make_
   const bool early = run.end == RunEnd::stopped || run.end == RunEnd::time_limit;
   report.whole = options.shards == 1 && !early && run.end != RunEnd::all_failed;
   if (report.whole)
-    report.statistics = statistics_of(study, rows, run.table);
+    add_answers(report, kind, rows, run.table);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   report.seconds = spent.count();
   if (options.shards == 1 && !early)

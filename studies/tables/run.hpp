@@ -3,19 +3,16 @@
 
 #include "strainwave/common/rows/run_rows.hpp"
 #include "strainwave/studies/results/result_folder.hpp"
-#include "strainwave/studies/tables/row_study.hpp"
-#include "strainwave/studies/tables/statistics.hpp"
+#include "strainwave/studies/tables/ranges.hpp"
+#include "strainwave/studies/tables/row_kind.hpp"
 
 namespace strainwave {
 
 struct SampledOptions {
-  int threads = 0; ///< 0: all that the process may use
-  bool disk_cache = true;
+  RunContext context = {};
   std::uint32_t shard = 0, shards = 1;
   std::optional<double> time_limit_s = {};
-  std::function<bool()> stop = {};
   std::function<void(const RunProgress&)> progress = {};
-  std::function<void(const std::string&)> warn = {};
   std::function<void()> overdue = {}; ///< see EngineOptions
 };
 
@@ -40,12 +37,10 @@ struct SampledReport {
   std::uint64_t failed = 0;
   std::vector<RowFailures> failures; ///< the most frequent first
   double seconds = 0.0;
-  SampledStatistics statistics; ///< of a whole table
-  bool whole = false;           ///< every row of the study is in the table, or the stop rule was content
+  bool whole = false;              ///< every row of the study is in the table, or the stop rule was content
+  std::vector<OutputRange> ranges; ///< of a whole table
+  std::shared_ptr<const RowAnswer> answer; ///< of a whole table: the kind's own
 };
-
-/// Makes the rows of a study; it may take its time (finite elements).
-using RowMaker = std::function<Outcome<SampledStudy>(const StudyFile& study, const RowOptions& options)>;
 
 EnginePlan engine_plan(const StudyFile& study, const SampledStudy& rows, std::uint32_t shard,
                        std::uint32_t shards);
@@ -54,11 +49,13 @@ ResultsTable results_table(const StudyFile& study, const SampledStudy& rows);
 
 /// The whole study in one process also writes results.h5 and result.json; a shard writes its journal alone.
 /// Throws JournalError, std::system_error, FieldError.
-Outcome<SampledReport> run_sampled(const StudyFile& study, const RowMaker& make_rows,
-                                   const ResultFolder& folder, const SampledOptions& options);
+Outcome<SampledReport> run_sampled(const StudyFile& study, const RowKind& kind, const ResultFolder& folder,
+                                   const SampledOptions& options);
 
 /// A table that came from elsewhere (merge): report, results.h5 and result.json.
 SampledReport report_of(const StudyFile& study, const SampledStudy& rows, const RowTable& table);
+/// What a whole table answers.
+void add_answers(SampledReport& report, const RowKind& kind, const SampledStudy& rows, const RowTable& table);
 void write_sampled_results(const ResultFolder& folder, const SampledStudy& rows, const RowTable& table,
                            const SampledReport& report);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Sweeps, tolerances and sensitivities for people and for programs.
+// Studies whose rows are known in advance, for people and for programs.
 
 #include "strainwave/studies/tables/run.hpp"
 

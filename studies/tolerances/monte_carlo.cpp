@@ -7,9 +7,9 @@
 
 namespace strainwave {
 
-Outcome<SampledStudy> make_monte_carlo_rows(const StudyFile& study, const RowOptions& options) {
-  const StudySampling& sampling = study.sampling;
-  auto made = SampledGear::make(study, sampling.outputs, sampling.positions, options);
+Outcome<SampledStudy> make_monte_carlo_rows(const StudyFile& study, const RunContext& context) {
+  const StudySampling& sampling = study.part<MonteCarloPart>().sampling;
+  auto made = SampledGear::make(study, sampling.outputs, sampling.positions, context);
   if (!made)
     return made.failure();
   const std::shared_ptr<const SampledGear> gear = *made;

@@ -11,8 +11,8 @@
 
 namespace strainwave {
 
-/// The outputs that a row of monte_carlo or sensitivity can have; study files are checked against their names
-/// (StudyVocabulary::sampled_outputs). Response::unit is for people ("µm").
+/// The outputs that a row of monte_carlo or sensitivity can have; study files are checked against their
+/// names. Response::unit is for people ("µm").
 std::span<const Response> sampled_responses();
 /// Their names alone, in the same order.
 std::span<const std::string_view> sampled_response_names();

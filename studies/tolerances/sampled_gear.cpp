@@ -58,15 +58,15 @@ std::vector<TableColumn> SampledGear::output_columns() const {
 
 Outcome<std::shared_ptr<const SampledGear>> SampledGear::make(const StudyFile& study,
                                                               const std::vector<std::string>& outputs,
-                                                              int positions, const RowOptions& options) {
+                                                              int positions, const RunContext& context) {
   refuse_loads(study);
   SampledSources sources(study);
-  const ForwardModel model({.disk_cache = options.disk_cache, .threads = options.threads});
+  const ForwardModel model({.disk_cache = context.disk_cache, .threads = context.threads});
   auto mesh = nominal_mesh(model, study.gear);
   if (!mesh)
     return mesh.failure();
-  if (options.warn)
-    std::ranges::for_each(mesh->analysis.warnings, options.warn);
+  if (context.warn)
+    std::ranges::for_each(mesh->analysis.warnings, context.warn);
   std::vector<MeshedTooth> teeth;
   for (std::size_t i = 0; i < mesh->teeth.size(); ++i)
     teeth.push_back({mesh->teeth[i].phi_rad, mesh->teeth[i].tooth, mesh->pose[i]});

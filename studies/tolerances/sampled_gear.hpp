@@ -44,7 +44,7 @@ public:
   /// Throws FieldError for loads and keys that rows of samples do not have. `outputs`: names, empty for all.
   static Outcome<std::shared_ptr<const SampledGear>> make(const StudyFile& study,
                                                           const std::vector<std::string>& outputs,
-                                                          int positions, const RowOptions& options);
+                                                          int positions, const RunContext& context);
 
   std::size_t inputs() const override { return sources_.dimensions(); }
   std::size_t outputs() const override { return wanted_.size(); }

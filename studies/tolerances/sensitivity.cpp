@@ -134,9 +134,9 @@ std::vector<LocalElasticity> elasticities_of(const SampledGear& gear, const std:
 
 } // namespace
 
-Outcome<SampledStudy> make_sensitivity_rows(const StudyFile& study, const RowOptions& options) {
-  const StudySensitivity& wanted = study.sensitivity;
-  auto made = SampledGear::make(study, wanted.outputs, wanted.positions, options);
+Outcome<SampledStudy> make_sensitivity_rows(const StudyFile& study, const RunContext& context) {
+  const StudySensitivity& wanted = study.part<SensitivityPart>().sensitivity;
+  auto made = SampledGear::make(study, wanted.outputs, wanted.positions, context);
   if (!made)
     return made.failure();
   const std::shared_ptr<const SampledGear> gear = *made;

@@ -4,7 +4,6 @@
 #include "strainwave/model/tolerance/error_motion.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -12,8 +11,6 @@
 namespace strainwave {
 
 namespace {
-
-constexpr std::string_view torque_head = "load.torque_nm[";
 
 ToleranceKind tolerance_kind(SourceKind kind) {
   switch (kind) {
@@ -56,18 +53,17 @@ void set_key(const StudyFile& study, const std::string& at, SampledSources::Sour
     source.role = SourceRole::radial_deformation;
   } else if (path == "wave_generator.eccentricity_mm") {
     source.role = SourceRole::eccentricity;
-  } else if (path.starts_with(torque_head)) {
+  } else if (const auto load = load_path(path)) {
     source.role = SourceRole::torque;
-    const char* const end = path.data() + path.size();
-    std::from_chars(path.data() + torque_head.size(), end, source.load_case);
-    if (source.load_case >= study.load_cases.size() || !study.load_cases[source.load_case].torque_nm)
-      throw FieldError(at + ".path", fmt::format("load case {} is not given by a torque", source.load_case));
+    source.load_case = load->number;
+    if (!load->torque || load->number >= study.load_cases.size() || !study.load_cases[load->number].torque_nm)
+      throw FieldError(at + ".path", fmt::format("load case {} is not given by a torque", load->number));
   } else if (!path.starts_with("circular_spline.") && !path.starts_with("flank_modification.")) {
     throw FieldError(
         at + ".path",
         fmt::format("{} cannot be a source: samples share one cup; expected a key of circular_spline or "
                     "flank_modification, wave_generator.max_radial_deformation_mm or eccentricity_mm, or "
-                    "load.torque_nm[0]. Other keys can be swept",
+                    "load_case[0].torque_nm. Other keys can be swept",
                     path));
   }
   const bool disc = source.role == SourceRole::radial_deformation || source.role == SourceRole::eccentricity;
@@ -79,14 +75,14 @@ void set_key(const StudyFile& study, const std::string& at, SampledSources::Sour
                      fmt::format("{} as a source needs wave_generator.eccentricity_mm instead of "
                                  "wrap_angle_deg in the gear",
                                  path));
-  source.unit = plain_unit(NumberPath(path).field().unit);
+  source.unit = plain_unit(source.role == SourceRole::torque ? "N·m" : NumberPath(path).field().unit);
 }
 
 } // namespace
 
 SampledSources::SampledSources(const StudyFile& study) {
-  for (std::size_t i = 0; i < study.sources.size(); ++i) {
-    const StudySource& given = study.sources[i];
+  for (std::size_t i = 0; i < study.part<UncertainPart>().sources.size(); ++i) {
+    const StudySource& given = study.part<UncertainPart>().sources[i];
     Source source;
     source.name = given.name;
     source.distribution = given.distribution;
@@ -114,7 +110,7 @@ SampledSources::SampledSources(const StudyFile& study) {
 /// Order of the numbers: flank sources before the others, correlated ones side by side in the middle.
 void SampledSources::place(const StudyFile& study) {
   const auto correlated = [&](const Source& s) {
-    return std::ranges::any_of(study.correlations, [&](const StudyCorrelation& c) {
+    return std::ranges::any_of(study.part<UncertainPart>().correlations, [&](const StudyCorrelation& c) {
       return c.first == s.name || c.second == s.name;
     });
   };
@@ -139,7 +135,7 @@ void SampledSources::draw(const StudyFile& study) {
       distributions[s.first + d] = s.distribution;
     if (s.role == SourceRole::flank && has_phase(s.tolerance.kind))
       distributions[s.first + 1] = Uniform{0.0, 2.0 * std::numbers::pi};
-    if (std::ranges::any_of(study.correlations, [&](const StudyCorrelation& c) {
+    if (std::ranges::any_of(study.part<UncertainPart>().correlations, [&](const StudyCorrelation& c) {
           return c.first == s.name || c.second == s.name;
         }))
       correlated.push_back(&s);
@@ -156,7 +152,7 @@ void SampledSources::draw(const StudyFile& study) {
     };
     for (std::size_t i = 0; i < n; ++i)
       matrix[i * n + i] = 1.0;
-    for (const StudyCorrelation& c : study.correlations) {
+    for (const StudyCorrelation& c : study.part<UncertainPart>().correlations) {
       const std::size_t i = at(c.first), j = at(c.second);
       matrix[i * n + j] = matrix[j * n + i] = normal_correlation_of_rank(c.rank);
     }

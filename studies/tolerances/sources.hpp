@@ -15,7 +15,7 @@
 
 #include "strainwave/common/sampling/sources.hpp"
 #include "strainwave/model/tolerance/tolerance_source.hpp"
-#include "strainwave/studies/file/study.hpp"
+#include "strainwave/studies/tolerances/uncertain.hpp"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 // A folder with the seed gear and a good study of it.
 
-#include "strainwave/studies/file/study.hpp"
+#include "strainwave/studies/commands/kinds.hpp"
 #include "tests/model/gear_file/files.hpp"
 
 namespace strainwave {
@@ -63,15 +63,14 @@ public:
   }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  StudyFile read(const std::string& text, bool reduced = false,
-                 const StudyVocabulary& vocabulary = {}) const {
-    return parse_study(text, path("study.toml"), reduced, vocabulary);
+  StudyFile read(const std::string& text, bool reduced = false) const {
+    return parse_study(text, path("study.toml"), study_kinds(), reduced);
   }
 
   /// What is said about a text, without the folder; "no error" if it is a study.
-  std::string complaint(const std::string& text, const StudyVocabulary& vocabulary = {}) const {
+  std::string complaint(const std::string& text) const {
     try {
-      (void)read(text, false, vocabulary);
+      (void)read(text);
     } catch (const FileError& error) {
       std::string words = error.what();
       const std::string folder = (folder_ / "").string();

@@ -1,5 +1,8 @@
 // Study files of sweeps, tolerances and sensitivities: what is read, and the words for what is wrong.
 
+#include "strainwave/studies/sweep/sweep.hpp"
+#include "strainwave/studies/tolerances/monte_carlo.hpp"
+#include "strainwave/studies/tolerances/sensitivity.hpp"
 #include "tests/studies/studies.hpp"
 
 #include <vector>
@@ -89,41 +92,43 @@ levels = 6
 TEST(SampledStudyFile, SweepArrives) {
   const StudyFolder folder;
   const StudyFile study = folder.read(good_sweep);
-  EXPECT_EQ(study.kind, StudyKind::sweep);
-  ASSERT_EQ(study.sweep_variables.size(), 3u);
-  EXPECT_EQ(sweep_values(study.sweep_variables[0]), (std::vector{10.0, 12.5}));
-  EXPECT_EQ(sweep_values(study.sweep_variables[1]), (std::vector{0.2, 0.25, 0.3}));
-  EXPECT_EQ(study.sweep_variables[1].link->ratio, 3.0);
-  EXPECT_EQ(study.sweep.outputs, (std::vector<std::string>{"peak_force_n", "wind_up_rad"}));
-  EXPECT_EQ(sweep_values(folder.read(good_sweep, true).sweep_variables[1]), (std::vector{0.2, 0.3}));
+  EXPECT_EQ(study.kind, &sweep_kind());
+  ASSERT_EQ(study.part<SweepPart>().variables.size(), 3u);
+  EXPECT_EQ(sweep_values(study.part<SweepPart>().variables[0]), (std::vector{10.0, 12.5}));
+  EXPECT_EQ(sweep_values(study.part<SweepPart>().variables[1]), (std::vector{0.2, 0.25, 0.3}));
+  EXPECT_EQ(study.part<SweepPart>().variables[1].link->ratio, 3.0);
+  EXPECT_EQ(study.part<SweepPart>().sweep.outputs, (std::vector<std::string>{"peak_force_n", "wind_up_rad"}));
+  EXPECT_EQ(sweep_values(folder.read(good_sweep, true).part<SweepPart>().variables[1]),
+            (std::vector{0.2, 0.3}));
 }
 
 TEST(SampledStudyFile, MonteCarloArrives) {
   const StudyFolder folder;
   const StudyFile study = folder.read(good_monte_carlo);
-  ASSERT_EQ(study.sources.size(), 4u);
-  EXPECT_EQ(std::get<Normal>(study.sources[0].distribution).std, 2.0);
-  EXPECT_EQ(study.sources[1].member, SourceMember::circular_spline);
-  EXPECT_EQ(std::get<TruncatedNormal>(study.sources[1].distribution).upper, 6.0);
-  EXPECT_EQ(study.sources[2].harmonic, 2);
-  EXPECT_EQ(std::get<Triangular>(study.sources[2].distribution).mode, 1.0);
-  EXPECT_EQ(study.sources[3].kind, SourceKind::gear_key);
-  EXPECT_EQ(std::get<Tabulated>(study.sources[3].distribution).value, (std::vector{0.19, 0.2, 0.22}));
-  EXPECT_EQ(study.correlations.at(0).rank, -0.5);
-  EXPECT_EQ(study.sampling.design, SamplingDesign::random);
-  EXPECT_EQ(study.sampling.positions, 3);
-  ASSERT_TRUE(study.sampling.stop);
-  EXPECT_EQ(study.sampling.stop->quantile, 0.99);
-  EXPECT_EQ(study.exceedances.at(0).limit, 45.0);
-  EXPECT_EQ(folder.read(good_monte_carlo, true).sampling.samples, 64);
+  ASSERT_EQ(study.part<UncertainPart>().sources.size(), 4u);
+  EXPECT_EQ(std::get<Normal>(study.part<UncertainPart>().sources[0].distribution).std, 2.0);
+  EXPECT_EQ(study.part<UncertainPart>().sources[1].member, SourceMember::circular_spline);
+  EXPECT_EQ(std::get<TruncatedNormal>(study.part<UncertainPart>().sources[1].distribution).upper, 6.0);
+  EXPECT_EQ(study.part<UncertainPart>().sources[2].harmonic, 2);
+  EXPECT_EQ(std::get<Triangular>(study.part<UncertainPart>().sources[2].distribution).mode, 1.0);
+  EXPECT_EQ(study.part<UncertainPart>().sources[3].kind, SourceKind::gear_key);
+  EXPECT_EQ(std::get<Tabulated>(study.part<UncertainPart>().sources[3].distribution).value,
+            (std::vector{0.19, 0.2, 0.22}));
+  EXPECT_EQ(study.part<UncertainPart>().correlations.at(0).rank, -0.5);
+  EXPECT_EQ(study.part<MonteCarloPart>().sampling.design, SamplingDesign::random);
+  EXPECT_EQ(study.part<MonteCarloPart>().sampling.positions, 3);
+  ASSERT_TRUE(study.part<MonteCarloPart>().sampling.stop);
+  EXPECT_EQ(study.part<MonteCarloPart>().sampling.stop->quantile, 0.99);
+  EXPECT_EQ(study.part<MonteCarloPart>().exceedances.at(0).limit, 45.0);
+  EXPECT_EQ(folder.read(good_monte_carlo, true).part<MonteCarloPart>().sampling.samples, 64);
 }
 
 TEST(SampledStudyFile, SensitivityArrives) {
   const StudyFolder folder;
   const StudyFile study = folder.read(good_sensitivity);
-  EXPECT_EQ(study.sensitivity.method, SensitivityMethod::morris);
-  EXPECT_EQ(study.sensitivity.levels, 6);
-  EXPECT_EQ(std::get<Uniform>(study.sources[1].distribution).upper, 2.3);
+  EXPECT_EQ(study.part<SensitivityPart>().sensitivity.method, SensitivityMethod::morris);
+  EXPECT_EQ(study.part<SensitivityPart>().sensitivity.levels, 6);
+  EXPECT_EQ(std::get<Uniform>(study.part<UncertainPart>().sources[1].distribution).upper, 2.3);
 }
 
 TEST(SampledStudyFile, ReadsBackToTheSameStudy) {
@@ -183,6 +188,16 @@ TEST(SampledStudyFile, MessagesAreExactlyThese) {
       {good_monte_carlo, "path = \"wave_generator.max_radial_deformation_mm\"\n", "",
        "study.toml:17:1: source[3]: has no path; kind \"gear_key\" wants the number of the gear that it "
        "means"},
+      {good_monte_carlo, "\"wave_generator.max_radial_deformation_mm\"", "\"load.torque_nm[0]\"",
+       "study.toml:20:8: source[3].path: the loads of a study are its load cases; write "
+       "load_case[0].torque_nm, for example"},
+      {good_monte_carlo, "\"wave_generator.max_radial_deformation_mm\"", "\"load_case[3].torque_nm\"",
+       "study.toml:20:8: source[3].path: there are only 3 load cases, counted from 0"},
+      {good_monte_carlo, "\"wave_generator.max_radial_deformation_mm\"", "\"load_case[0].torque_nm\"",
+       "no error"},
+      {good_sensitivity, "circular_spline.profile_shift", "load.torque_nm[0]",
+       "study.toml:10:8: source[1].path: the loads of a study are its load cases; write "
+       "load_case[0].torque_nm, for example"},
       {good_monte_carlo, "harmonic = 2", "harmonic = 0",
        "study.toml:15:12: source[2].harmonic: must be at least 1 and at most 1000, is 0"},
       {good_monte_carlo, "second = \"tooth thickness\"", "second = \"pitch\"",

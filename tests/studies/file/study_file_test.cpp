@@ -3,6 +3,7 @@
 #include "tests/studies/studies.hpp"
 
 #include "strainwave/model/gear/fields.hpp"
+#include "strainwave/studies/search/search.hpp"
 
 namespace strainwave {
 namespace {
@@ -17,24 +18,24 @@ TEST(StudyFileRead, EveryKeyArrives) {
   EXPECT_EQ(study.load_cases[0].phases, 4);
   EXPECT_EQ(study.load_cases[1].rotation_rad, 3e-3);
   EXPECT_EQ(study.load_cases[1].direction, Direction::both);
-  ASSERT_EQ(study.variables.size(), 3u);
-  EXPECT_EQ(study.variables[0].path, "flank_modification.flexspline.tip_relief_um");
-  EXPECT_EQ(study.variables[0].upper, 15.0);
-  EXPECT_EQ(study.variables[0].start, 5.0);
-  EXPECT_EQ(study.variables[0].scale, 10.0);
-  ASSERT_TRUE(study.variables[1].link);
-  EXPECT_EQ(study.variables[1].link->path, "wave_generator.eccentricity_mm");
-  EXPECT_EQ(study.variables[1].link->ratio, 3.0);
-  EXPECT_FALSE(study.variables[1].start);
-  EXPECT_EQ(study.objective.output, "peak_force_n");
-  EXPECT_EQ(study.objective.goal, Goal::minimise);
-  ASSERT_EQ(study.constraints.size(), 2u);
-  EXPECT_EQ(study.constraints[0].max_ratio_to_baseline, 1.05);
-  EXPECT_EQ(study.constraints[1].min, 3000.0);
-  EXPECT_EQ(study.method.name, "cobyla");
-  EXPECT_EQ(study.method.budget, 150);
-  EXPECT_EQ(study.method.tolerance, 1e-5);
-  EXPECT_EQ(study.method.starts, 2);
+  ASSERT_EQ(study.part<SearchPart>().variables.size(), 3u);
+  EXPECT_EQ(study.part<SearchPart>().variables[0].path, "flank_modification.flexspline.tip_relief_um");
+  EXPECT_EQ(study.part<SearchPart>().variables[0].upper, 15.0);
+  EXPECT_EQ(study.part<SearchPart>().variables[0].start, 5.0);
+  EXPECT_EQ(study.part<SearchPart>().variables[0].scale, 10.0);
+  ASSERT_TRUE(study.part<SearchPart>().variables[1].link);
+  EXPECT_EQ(study.part<SearchPart>().variables[1].link->path, "wave_generator.eccentricity_mm");
+  EXPECT_EQ(study.part<SearchPart>().variables[1].link->ratio, 3.0);
+  EXPECT_FALSE(study.part<SearchPart>().variables[1].start);
+  EXPECT_EQ(study.part<SearchPart>().objective.output, "peak_force_n");
+  EXPECT_EQ(study.part<SearchPart>().objective.goal, Goal::minimise);
+  ASSERT_EQ(study.part<SearchPart>().constraints.size(), 2u);
+  EXPECT_EQ(study.part<SearchPart>().constraints[0].max_ratio_to_baseline, 1.05);
+  EXPECT_EQ(study.part<SearchPart>().constraints[1].min, 3000.0);
+  EXPECT_EQ(study.part<SearchPart>().method.name, "cobyla");
+  EXPECT_EQ(study.part<SearchPart>().method.budget, 150);
+  EXPECT_EQ(study.part<SearchPart>().method.tolerance, 1e-5);
+  EXPECT_EQ(study.part<SearchPart>().method.starts, 2);
   EXPECT_EQ(study.limits.failure_share, 0.02);
 }
 
@@ -50,10 +51,10 @@ TEST(StudyFileRead, TheGearIsTheBaselineWithItsOverrides) {
 TEST(StudyFileRead, ReducedChangesTheStudyAndTheGear) {
   const StudyFolder folder;
   const StudyFile whole = folder.read(good_study), reduced = folder.read(good_study, true);
-  EXPECT_EQ(whole.method.budget, 150);
+  EXPECT_EQ(whole.part<SearchPart>().method.budget, 150);
   EXPECT_EQ(whole.load_cases[0].phases, 4);
   EXPECT_EQ(whole.gear.mesh.per_pitch, seed_gear().mesh.per_pitch);
-  EXPECT_EQ(reduced.method.budget, 10);
+  EXPECT_EQ(reduced.part<SearchPart>().method.budget, 10);
   EXPECT_EQ(reduced.load_cases[0].phases, 1);
   EXPECT_EQ(reduced.gear.mesh.per_pitch, 3);
 }
@@ -68,19 +69,30 @@ TEST(StudyFileRead, LoadsComeFromTheGearWhereNoneAreGiven) {
   EXPECT_EQ(study.load_cases[1].torque_nm, 7.0);
   EXPECT_EQ(study.load_cases[3].rotation_rad, 1e-3);
   EXPECT_EQ(study.load_cases[3].phases, 3);
-  EXPECT_EQ(study.method.budget, StudyMethod{}.budget);
+  EXPECT_EQ(study.part<SearchPart>().method.budget, StudyMethod{}.budget);
 }
 
 TEST(StudyFileRead, LoadsFromDisk) {
   const StudyFolder folder;
-  EXPECT_EQ(load_study(folder.write("study.toml", good_study)).variables.size(), 3u);
+  EXPECT_EQ(
+      load_study(folder.write("study.toml", good_study), study_kinds()).part<SearchPart>().variables.size(),
+      3u);
+}
+
+TEST(StudyFileRead, OnlyTheKindsThatAreHandedInExist) {
+  const StudyFolder folder;
+  const std::vector<const StudyKind*> kinds{&optimize_kind()};
+  EXPECT_EQ(parse_study(good_study, folder.path("study.toml"), kinds).kind, &optimize_kind());
+  EXPECT_THROW(
+      parse_study(edited(good_study, "\"optimize\"", "\"pareto\""), folder.path("study.toml"), kinds),
+      FileError);
 }
 
 TEST(StudyFileRead, StudiesAndGearsAreToldApart) {
-  EXPECT_TRUE(is_study_text(good_study));
-  EXPECT_TRUE(is_study_text("gear = \"x\"\n"));
-  EXPECT_FALSE(is_study_text(file_text(seed_path)));
-  EXPECT_FALSE(is_study_text("= ="));
+  EXPECT_TRUE(is_study_text(good_study, study_kinds()));
+  EXPECT_TRUE(is_study_text("gear = \"x\"\n", study_kinds()));
+  EXPECT_FALSE(is_study_text(file_text(seed_path), study_kinds()));
+  EXPECT_FALSE(is_study_text("= =", study_kinds()));
 }
 
 TEST(StudyFileWrite, ReadsBackToTheSameStudy) {
@@ -91,8 +103,9 @@ TEST(StudyFileWrite, ReadsBackToTheSameStudy) {
     const StudyFile back = folder.read(text);
     EXPECT_EQ(write_study(back), text);
     EXPECT_EQ(canonical_bits(back.gear), canonical_bits(study.gear));
-    EXPECT_EQ(back.method.budget, study.method.budget);
-    EXPECT_EQ(back.variables[1].link->path, study.variables[1].link->path);
+    EXPECT_EQ(back.part<SearchPart>().method.budget, study.part<SearchPart>().method.budget);
+    EXPECT_EQ(back.part<SearchPart>().variables[1].link->path,
+              study.part<SearchPart>().variables[1].link->path);
     EXPECT_EQ(back.load_cases[0].phases, study.load_cases[0].phases);
     EXPECT_EQ(back.load_cases[1].direction, Direction::both);
   }
@@ -101,7 +114,7 @@ TEST(StudyFileWrite, ReadsBackToTheSameStudy) {
 TEST(StudyFileWrite, ReducedChangesSurvive) {
   const StudyFolder folder;
   const std::string text = write_study(folder.read(good_study));
-  EXPECT_EQ(folder.read(text, true).method.budget, 10);
+  EXPECT_EQ(folder.read(text, true).part<SearchPart>().method.budget, 10);
   EXPECT_EQ(folder.read(text, true).gear.mesh.per_pitch, 3);
 }
 

@@ -24,7 +24,7 @@ Json image_of(const std::string& text) {
 /// For each instance, does it satisfy the schema? Also checks that the schema itself is legal 2020-12.
 std::vector<bool> judgements(const std::vector<Json>& instances) {
   const TemporaryFolder folder;
-  const std::string schema = folder.write("schema.json", study_json_schema().dump());
+  const std::string schema = folder.write("schema.json", study_json_schema(study_kinds()).dump());
   const std::string cases = folder.write("instances.json", Json(instances).dump());
   const std::string program = folder.write("judge.py", R"(
 import json, sys
@@ -52,7 +52,7 @@ TEST(StudySchema, AcceptsTheGalleryAndRefusesSlips) {
   };
   for (const char* name :
        {"seed_optimize", "seed_optimize_coned", "seed_optimize_one_point", "seed_pareto", "seed_multi_load",
-        "seed_relief_only", "seed_overnight_sweep", "seed_tolerance", "seed_sensitivity"})
+        "seed_relief_only", "seed_overnight_sweep", "seed_tolerance", "seed_sensitivity", "seed_convergence"})
     add(text_of(name), true);
   const std::string search = text_of("seed_optimize"), sweep = text_of("seed_overnight_sweep"),
                     sampled = text_of("seed_tolerance");
@@ -68,7 +68,7 @@ TEST(StudySchema, AcceptsTheGalleryAndRefusesSlips) {
 }
 
 TEST(StudySchema, TheDocumentIsInStep) {
-  EXPECT_EQ(file_text(STRAINWAVE_SOURCE "/docs/study-file.md"), study_reference_page())
+  EXPECT_EQ(file_text(STRAINWAVE_SOURCE "/docs/study-file.md"), study_reference_page(study_kinds()))
       << "renew it: strainwave schema --study --reference > docs/study-file.md";
 }
 

@@ -43,7 +43,7 @@ TEST_F(ReportCommand, OfASweepShowsRangesAndFailures) {
 }
 
 TEST_F(ReportCommand, OfEveryKindOfTheGalleryIsWhole) {
-  for (const char* name : {"seed_relief_only", "seed_tolerance", "seed_sensitivity"}) {
+  for (const char* name : {"seed_relief_only", "seed_tolerance", "seed_sensitivity", "seed_convergence"}) {
     expect_whole(page(gallery + name + ".toml --reduced"));
     std::filesystem::remove_all(folder / "a");
   }

@@ -55,10 +55,10 @@ double value(const Evaluation& evaluation, std::string_view name) {
 class CoarseStudy : public testing::Test {
 protected:
   StudyFolder folder;
-  RunOptions options{.threads = 1, .disk_cache = false, .stop = {}, .progress = {}, .warn = {}};
+  RunOptions options{.context = {.threads = 1, .disk_cache = false}};
 
   Outcome<OptimisationReport> run(const std::string& text) {
-    return run_optimisation(folder.read(text, false, study_vocabulary()), options);
+    return run_optimisation(folder.read(text), options);
   }
 };
 
@@ -98,10 +98,9 @@ TEST_F(CoarseStudy, ShowsTheOptimumInOtherModelsAndBesideItsBound) {
 }
 
 TEST_F(CoarseStudy, ThreadsDoNotShowInTheResult) {
-  const StudyFile study =
-      folder.read(with(coarse_study, "budget = 160", "budget = 120\nstarts = 3"), false, study_vocabulary());
+  const StudyFile study = folder.read(with(coarse_study, "budget = 160", "budget = 120\nstarts = 3"));
   const auto one = run_optimisation(study, options);
-  options.threads = 2;
+  options.context.threads = 2;
   const auto two = run_optimisation(study, options);
   EXPECT_EQ(one->inputs[0].best, two->inputs[0].best);
   EXPECT_EQ(one->best->values[0], two->best->values[0]);
@@ -127,7 +126,7 @@ TEST_F(CoarseStudy, InterferingGearIsNoBaseline) {
 
 TEST_F(CoarseStudy, StopIsHeeded) {
   int asked = 0;
-  options.stop = [&] { return ++asked > 5; };
+  options.context.stop = [&] { return ++asked > 5; };
   const auto report = run(coarse_study);
   ASSERT_TRUE(report.ok());
   EXPECT_EQ(report->verdict, Verdict::stopped);
@@ -150,7 +149,7 @@ TEST_F(CoarseStudy, FolderHoldsTheOptimisedGearAndEveryEvaluation) {
   H5LTget_dataset_info(file, "outputs", shape, nullptr, nullptr);
   EXPECT_EQ(shape[0], report->points.size());
   EXPECT_EQ(shape[1], gear_responses().size());
-  std::vector<double> inputs(report->points.size() * report->study.variables.size());
+  std::vector<double> inputs(report->points.size() * report->study.part<SearchPart>().variables.size());
   H5LTread_dataset_double(file, "inputs", inputs.data());
   EXPECT_EQ(inputs[0], report->points[0].x[0]);
   H5Fclose(file);
@@ -210,14 +209,14 @@ TEST(StudyLoads, CasesWithTheSamePhasesShareAnAnalysis) {
 }
 
 TEST(StudyDesign, StartsAtTheGearMovedIntoTheBounds) {
-  StudyFile study;
+  StudyFile study(optimize_kind());
   study.gear = seed_gear();
-  study.variables = {{.path = "circular_spline.profile_shift",
-                      .lower = 2.2,
-                      .upper = 2.3,
-                      .start = {},
-                      .scale = {},
-                      .link = {}}};
+  study.part<SearchPart>().variables = {{.path = "circular_spline.profile_shift",
+                                         .lower = 2.2,
+                                         .upper = 2.3,
+                                         .start = {},
+                                         .scale = {},
+                                         .link = {}}};
   EXPECT_EQ(study_design(study).start(), (std::vector{2.2}));
 }
 
@@ -225,8 +224,8 @@ TEST(StudyDesign, StartsAtTheGearMovedIntoTheBounds) {
 /// seed gear).
 TEST(GalleryStudy, WholeFlankOptimaAreFarBelowTheUnmodifiedGear) {
   for (const auto& [name, gain] : {std::pair{"seed_optimize", 0.2}, {"seed_optimize_coned", 0.3}}) {
-    const StudyFile study = load_study(std::string(STRAINWAVE_SOURCE "/studies/gallery/") + name + ".toml",
-                                       true, study_vocabulary());
+    const StudyFile study =
+        load_study(std::string(STRAINWAVE_SOURCE "/studies/gallery/") + name + ".toml", study_kinds(), true);
     const auto report = run_optimisation(study, {});
     ASSERT_TRUE(report.ok());
     ASSERT_TRUE(report->best);
@@ -241,8 +240,8 @@ TEST(GalleryStudy, WholeFlankOptimaAreFarBelowTheUnmodifiedGear) {
 
 TEST(GalleryStudy, SeedOptimizeReducedFindsTheKnownOptimum) {
   const StudyFile study =
-      load_study(STRAINWAVE_SOURCE "/studies/gallery/seed_optimize_one_point.toml", true, study_vocabulary());
-  const auto report = run_optimisation(study, {.stop = {}, .progress = {}, .warn = {}});
+      load_study(STRAINWAVE_SOURCE "/studies/gallery/seed_optimize_one_point.toml", study_kinds(), true);
+  const auto report = run_optimisation(study, {});
   ASSERT_TRUE(report.ok());
   EXPECT_EQ(report->verdict, Verdict::converged) << report->message;
   EXPECT_NEAR(value(report->baseline, "peak_force_n"), 47.186, 0.005);

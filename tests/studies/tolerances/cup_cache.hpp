@@ -11,7 +11,7 @@
 
 namespace strainwave {
 
-inline RowOptions cup_cache() {
+inline RunContext cup_cache() {
   struct Folder {
     std::filesystem::path path =
         std::filesystem::temp_directory_path() / fmt::format("strainwave-samples-{}", getpid());

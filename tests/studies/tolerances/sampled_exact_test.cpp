@@ -79,7 +79,7 @@ TEST(SampledGear, DiscsAreRightToSecondOrder) {
 // pieces.
 TEST(SampledGear, ErrorsOfSingleTeethAreThoseOfTheDirectGeometry) {
   StudyFile study = teeth_study();
-  study.sources.resize(2);
+  study.part<MonteCarloPart>().sources.resize(2);
   const auto gear = gear_of(study);
   const std::vector<double> inputs = drawn(study, 5, 3);
   const Rows rows = evaluate(*gear, inputs);
@@ -97,10 +97,13 @@ TEST(SampledGear, ErrorsOfSingleTeethAreThoseOfTheDirectGeometry) {
 // steps.
 TEST(SampledGearNightly, RandomGearsAreTheirOwnExactSolutions) {
   StudyFile study = teeth_study();
-  study.sources.resize(2);
-  study.sources.push_back(one_number("u0", "wave_generator.max_radial_deformation_mm", 0.2, 0.0005));
-  study.sources.push_back(one_number("e", "wave_generator.eccentricity_mm", 0.6, 0.002));
-  study.sources.push_back(one_number("x2", "circular_spline.profile_shift", 2.19, 0.005));
+  study.part<MonteCarloPart>().sources.resize(2);
+  study.part<MonteCarloPart>().sources.push_back(
+      one_number("u0", "wave_generator.max_radial_deformation_mm", 0.2, 0.0005));
+  study.part<MonteCarloPart>().sources.push_back(
+      one_number("e", "wave_generator.eccentricity_mm", 0.6, 0.002));
+  study.part<MonteCarloPart>().sources.push_back(
+      one_number("x2", "circular_spline.profile_shift", 2.19, 0.005));
   const auto gear = gear_of(study);
   constexpr std::size_t samples = 48;
   const std::vector<double> inputs = drawn(study, 0, samples);

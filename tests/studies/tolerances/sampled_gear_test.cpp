@@ -33,7 +33,7 @@ TEST(SampledGear, OtherDiscsClearanceAndTorqueAreTheForwardModelsGears) {
       study_with({one_number("u0", "wave_generator.max_radial_deformation_mm", 0.2, 0.0005),
                   one_number("e", "wave_generator.eccentricity_mm", 0.6, 0.002),
                   one_number("x2", "circular_spline.profile_shift", 2.19, 0.01),
-                  one_number("torque", "load.torque_nm[0]", 7.0, 0.5)});
+                  one_number("torque", "load_case[0].torque_nm", 7.0, 0.5)});
   const auto gear = gear_of(study);
   ASSERT_TRUE(gear->discs());
   EXPECT_LT(gear->discs()->error_mm(), 5e-5);
@@ -139,12 +139,12 @@ TEST(SampledGear, DiscsThatCannotBeAreFailedRowsAndWideSourcesKeepASmallerBox) {
 }
 
 TEST(SampledGear, CorrelatedSourcesStandSideBySideAndAreCorrelated) {
-  StudyFile study = study_with({one_number("torque", "load.torque_nm[0]", 7.0, 0.1),
+  StudyFile study = study_with({one_number("torque", "load_case[0].torque_nm", 7.0, 0.1),
                                 error("teeth", SourceKind::adjacent_pitch, Normal{0.0, 0.2}),
                                 one_number("x2", "circular_spline.profile_shift", 2.19, 0.002),
                                 error("thick", SourceKind::tooth_thickness, Normal{0.0, 0.5})});
-  study.correlations = {{"thick", "torque", 0.8}};
-  study.sampling.samples = 4096;
+  study.part<MonteCarloPart>().correlations = {{"thick", "torque", 0.8}};
+  study.part<MonteCarloPart>().sampling.samples = 4096;
   const SampledStudy rows = make_monte_carlo_rows(study, cup_cache()).value();
   ASSERT_EQ(rows.input_columns.size(), 4u);
   EXPECT_EQ(rows.input_columns[0].unit, "N.m");
@@ -198,7 +198,7 @@ TEST(SampledGear, RefusesWhatSamplesCannotHave) {
   EXPECT_NE(
       refused(study_with({one_number("t", "flexspline.rim_thickness_mm", 0.3, 0.01)})).find("share one cup"),
       std::string::npos);
-  EXPECT_NE(refused(study_with({one_number("t", "load.torque_nm[1]", 7.0, 0.01)})).find("load case 1"),
+  EXPECT_NE(refused(study_with({one_number("t", "load_case[1].torque_nm", 7.0, 0.01)})).find("load case 1"),
             std::string::npos);
   StudyFile coast = teeth_study();
   coast.load_cases[0].direction = Direction::coast;

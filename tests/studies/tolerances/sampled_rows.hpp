@@ -29,13 +29,12 @@ inline StudySource error(std::string name, SourceKind kind, Distribution distrib
 }
 
 inline StudyFile study_with(std::vector<StudySource> sources) {
-  StudyFile study;
-  study.kind = StudyKind::monte_carlo;
+  StudyFile study(monte_carlo_kind());
   study.gear = seed_gear();
   study.load_cases = {{.torque_nm = 7.0, .rotation_rad = {}}};
-  study.sources = std::move(sources);
-  study.sampling.design = SamplingDesign::random;
-  study.sampling.samples = 64;
+  study.part<MonteCarloPart>().sources = std::move(sources);
+  study.part<MonteCarloPart>().sampling.design = SamplingDesign::random;
+  study.part<MonteCarloPart>().sampling.samples = 64;
   return study;
 }
 

@@ -26,11 +26,11 @@ const double by_width = 0.5e-3 / 14.2;      // rad per µm
 constexpr double spread_x2 = 0.005, spread_width = 1.0;
 
 StudyFile turning(SensitivityMethod method, int samples) {
-  StudyFile study;
-  study.kind = StudyKind::sensitivity;
+  StudyFile study(sensitivity_kind());
+  auto& part = study.part<SensitivityPart>();
   study.gear = seed_gear();
   study.load_cases = {{.torque_nm = 7.0, .rotation_rad = {}}};
-  study.sources = {
+  part.sources = {
       {.name = "x2",
        .kind = SourceKind::gear_key,
        .path = "circular_spline.profile_shift",
@@ -41,9 +41,9 @@ StudyFile turning(SensitivityMethod method, int samples) {
        .path = {},
        .distribution = Normal{0.0, spread_width}},
       {.name = "pitch", .kind = SourceKind::adjacent_pitch, .path = {}, .distribution = Normal{0.0, 1e-3}}};
-  study.sensitivity.method = method;
-  study.sensitivity.samples = samples;
-  study.sensitivity.outputs = {"rotation_rad"};
+  part.sensitivity.method = method;
+  part.sensitivity.samples = samples;
+  part.sensitivity.outputs = {"rotation_rad"};
   return study;
 }
 
@@ -134,12 +134,16 @@ TEST(SensitivityRows, MorrisStepsOfALinearOutput) {
 }
 
 TEST(SensitivityRows, MonteCarloOfALinearGaussianCase) {
-  StudyFile file = turning(SensitivityMethod::sobol, 8);
-  file.kind = StudyKind::monte_carlo;
-  file.sources.resize(2);
-  file.sampling.design = SamplingDesign::sobol;
-  file.sampling.samples = 16 * 256;
-  file.sampling.outputs = {"rotation_rad"};
+  const StudyFile same = turning(SensitivityMethod::sobol, 8);
+  StudyFile file(monte_carlo_kind());
+  file.gear = same.gear;
+  file.load_cases = same.load_cases;
+  auto& part = file.part<MonteCarloPart>();
+  part.sources = same.part<UncertainPart>().sources;
+  part.sources.resize(2);
+  part.sampling.design = SamplingDesign::sobol;
+  part.sampling.samples = 16 * 256;
+  part.sampling.outputs = {"rotation_rad"};
   const SampledStudy study = make_monte_carlo_rows(file, cup_cache()).value();
   const RowTable table = evaluated(study);
   std::vector<std::span<const double>> parts;
