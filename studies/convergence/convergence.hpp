@@ -12,8 +12,8 @@
 //     outputs = ["peak_force_n"]                  # absent: all that the loads give
 //
 // Row i is the gear on mesh i. The size of its elements is 1 on the first mesh and follows the counts: with K
-// keys that grow h_i = ∏ (n_k0/n_ki)^(1/K). Counts that do not grow in proportion make h a mean, and the order
-// a rough one.
+// keys that grow h_i = ∏ (n_k0/n_ki)^(1/K). Counts that do not grow in proportion make h a mean, and the
+// order a rough one.
 
 #include "strainwave/studies/tables/row_kind.hpp"
 

@@ -40,7 +40,7 @@ TEST_F(ConvergenceCommand, RowsAreMeshesAndTheAnswerIsTheirOrder) {
   EXPECT_EQ(json["rows"], 3);
   const auto& force = json["convergence"]["peak_force_n"];
   ASSERT_EQ(force["levels"].size(), 3u);
-  EXPECT_EQ(force["levels"][2]["size"], 0.5);
+  EXPECT_DOUBLE_EQ(force["levels"][2]["size"].get<double>(), 0.5);
   const End row = shell("PROGRAM eval --from a --index 1 --json --gear row.toml");
   ASSERT_EQ(row.code, 0) << row.err;
   EXPECT_EQ(row.json()["same_as_recorded"], true);
