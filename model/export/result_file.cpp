@@ -85,65 +85,6 @@ private:
   std::map<std::string_view, Written> written_; ///< by the name of the field
 };
 
-void put_path(const LoadPath& path, const Group& group) {
-  group.put("phase", "1", path.phase);
-  group.put("start_rotation", "rad", path.start_rotation_rad);
-  group.put("start_torque", "N.m", path.start_torque_nm);
-  group.put("start_stiffness", "N.m/rad", path.start_stiffness_nm_per_rad);
-  group.put("end_rotation", "rad", path.end_rotation_rad);
-  group.put("end_torque", "N.m", path.end_torque_nm);
-  std::vector<double> rotation, torque, stiffness, phi, height, z;
-  std::vector<int> wall_joins, wall_leaves, event_of, tooth, coast, joins, whole_tooth;
-  for (std::size_t k = 0; k < path.events.size(); ++k) {
-    const LoadPathEvent& event = path.events[k];
-    rotation.push_back(event.rotation_rad);
-    torque.push_back(event.torque_nm);
-    stiffness.push_back(event.stiffness_nm_per_rad);
-    wall_joins.push_back(event.wall_joins);
-    wall_leaves.push_back(event.wall_leaves);
-    for (const LoadPathChange& change : event.changes) {
-      event_of.push_back(static_cast<int>(k));
-      tooth.push_back(change.point.tooth);
-      phi.push_back(change.point.phi_deg);
-      coast.push_back(change.point.coast);
-      height.push_back(change.point.flank_radius_mm);
-      z.push_back(change.point.z_mm);
-      joins.push_back(change.joins);
-      whole_tooth.push_back(change.whole_tooth);
-    }
-  }
-  const Group events(group, "events");
-  events.put("rotation", "rad", rotation);
-  events.put("torque", "N.m", torque);
-  events.put("stiffness", "N.m/rad", stiffness);
-  events.put("wall_joins", wall_joins);
-  events.put("wall_leaves", wall_leaves);
-  const Group changes(group, "changes");
-  changes.put("event", event_of);
-  changes.put("tooth", tooth);
-  changes.put("phi", "deg", phi);
-  changes.put("coast", coast);
-  changes.put("flank_radius", "mm", height);
-  changes.put("z", "mm", z);
-  changes.put("joins", joins);
-  changes.put("whole_tooth", whole_tooth);
-  std::vector<double> at_torque, at_rotation, direct, exact_rad, exact_nm;
-  for (const LoadOnPath& load : path.loads) {
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    at_torque.push_back(load.torque_nm);
-    at_rotation.push_back(load.rotation_rad);
-    direct.push_back(load.direct_difference);
-    exact_rad.push_back(load.exact_minus_path_rad.value_or(none));
-    exact_nm.push_back(load.exact_minus_path_nm.value_or(none));
-  }
-  const Group loads(group, "loads");
-  loads.put("torque", "N.m", at_torque);
-  loads.put("rotation", "rad", at_rotation);
-  loads.put("direct_difference", "1", direct);
-  loads.put("exact_minus_path_rotation", "rad", exact_rad);
-  loads.put("exact_minus_path_torque", "N.m", exact_nm);
-}
-
 } // namespace
 
 void write_result_file(const ForwardResult& result, const std::string& config,

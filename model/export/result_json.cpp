@@ -63,59 +63,14 @@ private:
   Json& to_;
 };
 
-Json path_point_json(const PathPoint& point) {
-  return {{"tooth", point.tooth},
-          {"phi_deg", point.phi_deg},
-          {"flank", point.coast ? "coast" : "drive"},
-          {"height_mm", point.flank_radius_mm},
-          {"z_mm", point.z_mm}};
-}
-
-Json path_json(const LoadPath& path) {
-  Json json = {{"phase", path.phase}};
-  json["start"] = {{"rotation_rad", path.start_rotation_rad},
-                   {"torque_nm", path.start_torque_nm},
-                   {"stiffness_nm_per_rad", path.start_stiffness_nm_per_rad},
-                   {"carries", Json::array()}};
-  for (const PathPoint& point : path.carries_at_start)
-    json["start"]["carries"].push_back(path_point_json(point));
-  json["events"] = Json::array();
-  for (const LoadPathEvent& event : path.events) {
-    Json changes = Json::array();
-    for (const LoadPathChange& change : event.changes) {
-      Json one = path_point_json(change.point);
-      one["change"] = change.joins ? "joins" : "leaves";
-      one["whole_tooth"] = change.whole_tooth;
-      changes.push_back(std::move(one));
-    }
-    json["events"].push_back({{"rotation_rad", event.rotation_rad},
-                              {"torque_nm", event.torque_nm},
-                              {"stiffness_nm_per_rad", event.stiffness_nm_per_rad},
-                              {"changes", std::move(changes)},
-                              {"wall_joins", event.wall_joins},
-                              {"wall_leaves", event.wall_leaves}});
-  }
-  json["end"] = {{"rotation_rad", path.end_rotation_rad}, {"torque_nm", path.end_torque_nm}};
-  json["loads"] = Json::array();
-  for (const LoadOnPath& load : path.loads) {
-    Json one = {{"torque_nm", load.torque_nm},
-                {"rotation_rad", load.rotation_rad},
-                {"direct_difference", load.direct_difference}};
-    if (load.exact_minus_path_rad)
-      one["exact_minus_path_rad"] = *load.exact_minus_path_rad;
-    if (load.exact_minus_path_nm)
-      one["exact_minus_path_nm"] = *load.exact_minus_path_nm;
-    json["loads"].push_back(std::move(one));
-  }
-  return json;
-}
-
 } // namespace
 
 Json result_json(const ForwardResult& result, const LoadPath* path) {
   Json json;
   JsonWriter writer(json);
   write_result(result, writer);
+  if (path)
+    json["path"] = load_path_json(*path);
   return json;
 }
 
