@@ -99,7 +99,7 @@ TEST(LoadPathFiles, FigureMarksEveryEventOnce) {
   }
   const std::string marks = marked.substr(bare.size());
   std::size_t empty = 0; // a block without events says nan
-  for (std::size_t at = 0; (at = marks.find("nan nan nan", at)) != std::string::npos; ++at)
+  for (std::size_t at = 0; (at = marks.find("nan nan nan nan", at)) != std::string::npos; ++at)
     ++empty;
   EXPECT_EQ(rows(marks), path.events.size() + both + empty);
 }
