@@ -113,7 +113,7 @@ bool StudyChecker::names_load(std::string_view path) {
          path.starts_with("load.rotation_rad");
 }
 
-std::optional<LoadPath> StudyChecker::load(const std::string& key, const std::string& path) {
+std::optional<LoadKey> StudyChecker::load(const std::string& key, const std::string& path) {
   if (!given(key))
     return std::nullopt;
   const auto refuse = [&](std::string sentence) {
@@ -122,7 +122,7 @@ std::optional<LoadPath> StudyChecker::load(const std::string& key, const std::st
   };
   if (path.starts_with("load."))
     return refuse("the loads of a study are its load cases; write load_case[0].torque_nm, for example");
-  const auto load = load_path(path);
+  const auto load = load_key(path);
   if (!load)
     return refuse(
         fmt::format("{} is no load; expected load_case[0].torque_nm or load_case[0].rotation_rad", path));
@@ -141,11 +141,11 @@ void StudyChecker::claim(const std::string& key, const std::string& path) {
     fault(key, fmt::format("{} varies already (line {})", path, first->second));
 }
 
-std::optional<LoadPath> load_path(std::string_view path) {
+std::optional<LoadKey> load_key(std::string_view path) {
   constexpr std::string_view head = "load_case[";
   if (!path.starts_with(head))
     return std::nullopt;
-  LoadPath load;
+  LoadKey load;
   const char* const end = path.data() + path.size();
   const auto [after, error] = std::from_chars(path.data() + head.size(), end, load.number);
   const std::string_view rest(after, static_cast<std::size_t>(end - after));

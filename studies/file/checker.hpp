@@ -49,7 +49,7 @@ public:
   /// Is this the path of a load, well spelt or not? Then the number of the gear is not to be looked for.
   static bool names_load(std::string_view path);
   /// The load that such a path names: there, and given by this very number. Nothing, and a fault, if not.
-  std::optional<LoadPath> load(const std::string& key, const std::string& path);
+  std::optional<LoadKey> load(const std::string& key, const std::string& path);
   /// A number may vary once.
   void claim(const std::string& key, const std::string& path);
 

@@ -43,12 +43,12 @@ struct LoadCase {
 };
 
 /// How every kind of study names a load: "load_case[2].torque_nm".
-struct LoadPath {
+struct LoadKey {
   std::size_t number = 0;
   bool torque = true; ///< else rotation_rad
 };
 /// Nothing for other paths.
-std::optional<LoadPath> load_path(std::string_view path);
+std::optional<LoadKey> load_key(std::string_view path);
 
 /// Another number of the gear that moves with a variable: number at `path` = ratio · variable.
 struct VariableLink {

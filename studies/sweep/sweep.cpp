@@ -26,7 +26,7 @@ namespace {
 /// What one variable of the sweep moves.
 struct Knob {
   std::optional<NumberPath> number; ///< nothing: a load
-  LoadPath load;
+  LoadKey load;
   std::optional<NumberPath> linked;
   double ratio = 1.0;
 };
@@ -42,7 +42,7 @@ int cost_rank(std::string_view path) {
 
 Knob knob_of(const SweepVariable& v) {
   Knob knob;
-  if (const auto load = load_path(v.path))
+  if (const auto load = load_key(v.path))
     knob.load = *load;
   else
     knob.number.emplace(v.path);
@@ -214,7 +214,7 @@ Outcome<SampledStudy> make_sweep_rows(const StudyFile& study, const RunContext& 
   auto model = std::make_unique<SweepModel>(study, context);
   SampledStudy sampled;
   for (const SweepVariable& v : study.part<SweepPart>().variables) {
-    const auto load = load_path(v.path);
+    const auto load = load_key(v.path);
     sampled.input_columns.push_back(
         {v.path, plain_unit(load ? (load->torque ? "N·m" : "rad") : NumberPath(v.path).field().unit)});
   }

@@ -53,7 +53,7 @@ void set_key(const StudyFile& study, const std::string& at, SampledSources::Sour
     source.role = SourceRole::radial_deformation;
   } else if (path == "wave_generator.eccentricity_mm") {
     source.role = SourceRole::eccentricity;
-  } else if (const auto load = load_path(path)) {
+  } else if (const auto load = load_key(path)) {
     source.role = SourceRole::torque;
     source.load_case = load->number;
     if (!load->torque || load->number >= study.load_cases.size() || !study.load_cases[load->number].torque_nm)
