@@ -147,8 +147,9 @@ std::string unknown_key_sentence(std::string_view path, std::string* nearest = n
 std::string shortest(double value);
 
 /// The exact bits of a gear for keys of stored results: every field in table order, with its path, except
-/// `name`, which no result depends on. −0 counts as 0. With `parts`, only these keys and those of these tables
-/// and of tables inside them. wave_generator.table_file enters as a path: who reads that file adds its content.
+/// `name`, which no result depends on. −0 counts as 0. With `parts`, only these keys and those of these
+/// tables and of tables inside them. wave_generator.table_file enters as a path: who reads that file adds its
+/// content.
 std::string canonical_bits(const Gear& gear, std::span<const std::string_view> parts = {});
 
 /// A gear of these keys and tables alone; everything else is a default-constructed Gear's.

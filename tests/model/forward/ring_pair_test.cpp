@@ -15,8 +15,7 @@ namespace strainwave {
 namespace {
 
 const NominalMesh& seed_mesh() {
-  static const NominalMesh mesh =
-      nominal_mesh(testing_support::shared_model(), seed_gear()).value();
+  static const NominalMesh mesh = nominal_mesh(testing_support::shared_model(), seed_gear()).value();
   return mesh;
 }
 
