@@ -13,10 +13,10 @@ namespace {
 TEST(CupsOfAToleranceStudy, PlanSolvesOneWithoutAnyCache) {
   StudyFile study = teeth_study();
   study.gear.mesh = testing_support::coarsest_mesh;
-  study.sampling.samples = 4;
+  study.part<MonteCarloPart>().sampling.samples = 4;
   for (const int threads : {1, 2}) {
     const std::uint64_t before = cups_solved();
-    const auto estimate = pilot(study, threads);
+    const auto estimate = pilot(study, {.threads = threads, .disk_cache = false});
     ASSERT_TRUE(estimate.ok()) << estimate.failure().message;
     EXPECT_EQ(cups_solved() - before, 1u) << threads;
   }
