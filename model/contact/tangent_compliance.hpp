@@ -5,8 +5,8 @@
 //     gap = q − θ r + D F,     D = M_tt − M_tA M_AA⁻¹ M_At,     q = q_t − M_tA M_AA⁻¹ q_A,
 //
 // with t the points of the teeth and A the closed wall stations. Exact for all forces that keep A closed and
-// the rest open; bounds (optimize/gear/force_bound.hpp) and rough estimates use it. Wall gaps are those of the
-// LoadProblem (about the assembled state). Without wall stations in the problem (fidelity linear) M_tt
+// the rest open; bounds (optimize/gear/force_bound.hpp) and rough estimates use it. Wall gaps are those of
+// the LoadProblem (about the assembled state). Without wall stations in the problem (fidelity linear) M_tt
 // already holds the wall, and nothing changes.
 
 #include "strainwave/model/contact/load_problem.hpp"
