@@ -13,7 +13,9 @@ namespace {
 using units::degree;
 constexpr double none = std::numeric_limits<double>::infinity();
 
-/// Angle and value of the least f in [lo, hi], f unimodal there; to 1e-7 of the interval.
+/// Angle and value of the least f in [lo, hi], f unimodal there; to 1e-7 of the interval. Not Boost's
+/// brent_find_minima: f is infinite where flanks do not overlap, and a parabola through that steps to no
+/// number.
 template <class F>
 std::pair<double, double> golden_section(const F& f, double lo, double hi) {
   constexpr double part = 0.3819660112501051;

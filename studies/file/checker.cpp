@@ -44,9 +44,19 @@ void StudyChecker::check_loads() {
 }
 
 void StudyChecker::check_name(const std::string& key, const std::string& name,
-                              std::span<const std::string_view> legal, std::string_view what) {
+                              std::span<const std::string_view> legal, std::string_view what,
+                              std::span<const Counterpart> counterparts) {
   if (!given(key) || legal.empty() || std::find(legal.begin(), legal.end(), name) != legal.end())
     return;
+  for (const Counterpart& counterpart : counterparts) {
+    if (counterpart.name == name) {
+      fault(key,
+            fmt::format("studies of this kind have no {} \"{}\"; they have \"{}\": {}", what, name,
+                        counterpart.here, counterpart.sentence),
+            std::string(counterpart.here));
+      return;
+    }
+  }
   const Nearest nearest = nearest_name(name, legal);
   fault(key,
         fmt::format(fmt::runtime(nearest.close ? "there is no {} \"{}\"; did you mean \"{}\"?"
@@ -64,10 +74,11 @@ void StudyChecker::check_output(const std::string& key, const std::string& name)
 }
 
 void StudyChecker::check_names(const std::string& key, const std::vector<std::string>& names,
-                               std::span<const std::string_view> legal) {
+                               std::span<const std::string_view> legal,
+                               std::span<const Counterpart> counterparts) {
   for (auto name = names.begin(); name != names.end(); ++name) {
     const std::string item = fmt::format("{}[{}]", key, name - names.begin());
-    check_name(item, *name, legal, "output");
+    check_name(item, *name, legal, "output", counterparts);
     if (std::find(names.begin(), name, *name) != name)
       fault(item, fmt::format("{} is in the list already", *name));
   }

@@ -34,13 +34,18 @@ public:
   /// What no kind has of its own: the load cases.
   void check_loads();
 
+  /// A name of another kind of study, and the one that comes nearest in meaning to it here, with its
+  /// sentence.
+  struct Counterpart {
+    std::string_view name, here, sentence;
+  };
   void check_name(const std::string& key, const std::string& name, std::span<const std::string_view> legal,
-                  std::string_view what);
+                  std::string_view what, std::span<const Counterpart> counterparts = {});
   /// An output of a forward result that this gear gives under these loads.
   void check_output(const std::string& key, const std::string& name);
   /// The outputs that a study records: names of `legal`, each once.
   void check_names(const std::string& key, const std::vector<std::string>& names,
-                   std::span<const std::string_view> legal);
+                   std::span<const std::string_view> legal, std::span<const Counterpart> counterparts = {});
 
   /// The number of the gear that a path names; a fault if it names none that can vary continuously.
   std::optional<NumberPath> continuous_number(const std::string& key, const std::string& path,

@@ -80,7 +80,7 @@ public:
 
   void run() {
     const StudySampling& s = part_.sampling;
-    checker_.check_names("sampling.outputs", s.outputs, sampled_response_names());
+    checker_.check_names("sampling.outputs", s.outputs, sampled_response_names(), sampled_counterparts());
     for (std::size_t i = 0; i < part_.exceedances.size(); ++i)
       check_recorded(fmt::format("exceedance[{}].output", i), part_.exceedances[i].output);
     const std::string key = checker_.given("sampling.samples") ? "sampling.samples" : "sampling";
@@ -109,7 +109,7 @@ public:
 private:
   /// An output that is asked about has to be recorded.
   void check_recorded(const std::string& key, const std::string& name) {
-    checker_.check_name(key, name, sampled_response_names(), "output");
+    checker_.check_name(key, name, sampled_response_names(), "output", sampled_counterparts());
     const auto& recorded = part_.sampling.outputs;
     if (checker_.given(key) && !recorded.empty() &&
         std::find(recorded.begin(), recorded.end(), name) == recorded.end())

@@ -30,20 +30,28 @@ struct Row {
   bool largest; ///< is the largest the worst?
 };
 
-constexpr std::array<Row, sampled_output_count> rows{{
-    {{"peak_force_n", "N", "largest meshing force of a tooth"}, true},
-    {{"force_ratio", "", "largest meshing force over the mean of the teeth that carry load"}, true},
-    {{"engaged_count", "", "teeth of both lobes that carry load"}, false},
+/// What an analysis calls so too, with its unit and sentence.
+Response as_analysed(std::string_view name) {
+  return gear_responses()[find_response(gear_responses(), name).value()];
+}
+
+const std::array<Row, sampled_output_count> rows{{
+    {as_analysed("peak_force_n"), true},
+    {as_analysed("force_ratio"), true},
+    {{"engaged_count_all", "", "teeth of both lobes that carry load"}, false},
     {{"lobe_share", "", "share of the torque on the lobe that carries more"}, true},
-    {{"rotation_rad", "rad", "rotation of the circular spline under load, take-up included"}, true},
-    {{"torque_nm", "N·m", "torque on the circular spline"}, false},
-    {{"min_backlash_um", "µm", "least initial drive backlash of a tooth; negative: interference"}, false},
-    {{"interference_um", "µm", "overlap of drive flanks before any load; 0 where there is none"}, true},
+    {as_analysed("rotation_rad"), true},
+    {as_analysed("torque_nm"), false},
+    {{"min_tooth_backlash_um", "µm", "least initial drive backlash of a tooth; negative: interference"},
+     false},
+    {{"tooth_interference_um", "µm",
+      "overlap of the drive flanks of a tooth before any load; 0 where there is none"},
+     true},
     {{"loaded_gap_um", "µm", "least gap of a tooth without load, under load"}, false},
-    {{"take_up_rad", "rad", "rotation to the first contact"}, true},
-    {{"wind_up_rad", "rad", "rotation under load after the first contact"}, true},
-    {{"secant_nm_per_rad", "N·m/rad", "torsional stiffness: torque over wind-up"}, false},
-    {{"tangent_stiffness_nm_per_rad", "N·m/rad", "slope of torque over rotation under load"}, false},
+    {as_analysed("take_up_rad"), true},
+    {{"load_wind_up_rad", "rad", "rotation after the first contact under the load case"}, true},
+    {{"load_secant_nm_per_rad", "N·m/rad", "torque of the load case over its wind-up"}, false},
+    {as_analysed("tangent_stiffness_nm_per_rad"), false},
 }};
 
 } // namespace
@@ -66,6 +74,23 @@ std::span<const std::string_view> sampled_response_names() {
     return all;
   }();
   return names;
+}
+
+std::span<const StudyChecker::Counterpart> sampled_counterparts() {
+  static const auto counterparts = [] {
+    std::vector<StudyChecker::Counterpart> all;
+    const auto add = [&](std::string_view name, std::string_view here) {
+      all.push_back(
+          {name, here, sampled_responses()[find_response(sampled_responses(), here).value()].sentence});
+    };
+    add("engaged_count", "engaged_count_all");
+    add("min_backlash_um", "min_tooth_backlash_um");
+    add("interference_um", "tooth_interference_um");
+    add("wind_up_rad", "load_wind_up_rad");
+    add("secant_nm_per_rad", "load_secant_nm_per_rad");
+    return all;
+  }();
+  return counterparts;
 }
 
 SampledOutputs read_outputs(const SampledReading& reading) {

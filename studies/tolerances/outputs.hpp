@@ -3,6 +3,7 @@
 
 #include "strainwave/model/lcp/sampled_contact.hpp"
 #include "strainwave/model/results/response.hpp"
+#include "strainwave/studies/file/checker.hpp"
 
 #include <array>
 #include <cstddef>
@@ -12,10 +13,12 @@
 namespace strainwave {
 
 /// The outputs that a row of monte_carlo or sensitivity can have; study files are checked against their
-/// names. Response::unit is for people ("µm").
+/// names. A name that an analysis has too (response.hpp) means the same. Response::unit is for people ("µm").
 std::span<const Response> sampled_responses();
 /// Their names alone, in the same order.
 std::span<const std::string_view> sampled_response_names();
+/// Responses of an analysis that samples do not have, and what they have instead.
+std::span<const StudyChecker::Counterpart> sampled_counterparts();
 
 inline constexpr std::size_t sampled_output_count = 13;
 using SampledOutputs = std::array<double, sampled_output_count>; ///< in the order of sampled_responses()

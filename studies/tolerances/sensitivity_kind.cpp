@@ -51,7 +51,7 @@ void check_sensitivity(StudyChecker& checker) {
     checker.fault(fmt::format("correlation[{}]", i),
                   "Sobol' indices, Morris screening and elasticities want independent sources");
   const StudySensitivity& s = part.sensitivity;
-  checker.check_names("sensitivity.outputs", s.outputs, sampled_response_names());
+  checker.check_names("sensitivity.outputs", s.outputs, sampled_response_names(), sampled_counterparts());
   const std::string key = checker.given("sensitivity.samples") ? "sensitivity.samples" : "sensitivity";
   if (s.method == SensitivityMethod::sobol &&
       (s.samples < 8 || !std::has_single_bit(static_cast<unsigned>(s.samples))))

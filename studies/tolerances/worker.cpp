@@ -212,7 +212,7 @@ std::string SampledGear::describe(std::uint64_t row, std::span<const double> val
       one["backlash_um"].push_back(1e3 * at.backlash_mm()[i]);
       one["contact_radius_mm"].push_back(at.contact_radius_mm()[i]);
       one["force_n"].push_back(at.state().force[i]);
-      one["loaded_gap_um"].push_back(1e3 * at.state().gap[i] / cosine_[i]);
+      one["loaded_backlash_um"].push_back(1e3 * at.state().gap[i] / cosine_[i]);
     }
     json["loads"][load].push_back(std::move(one));
   };

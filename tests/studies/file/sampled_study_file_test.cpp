@@ -213,8 +213,12 @@ TEST(SampledStudyFile, MessagesAreExactlyThese) {
        "design = \"latin_hypercube\"\nsamples = 4096",
        "study.toml:32:8: sampling.stop: needs design = \"random\": the intervals of other designs need all "
        "their samples"},
-      {good_monte_carlo, "output = \"peak_force_n\"\nlimit", "output = \"wind_up_rad\"\nlimit",
-       "study.toml:34:10: exceedance[0].output: wind_up_rad is not among sampling.outputs"},
+      {good_monte_carlo, "output = \"peak_force_n\"\nlimit", "output = \"take_up_rad\"\nlimit",
+       "study.toml:34:10: exceedance[0].output: take_up_rad is not among sampling.outputs"},
+      {good_monte_carlo, "output = \"peak_force_n\"\nlimit", "output = \"engaged_count\"\nlimit",
+       "study.toml:34:10: exceedance[0].output: studies of this kind have no output \"engaged_count\"; they "
+       "have "
+       "\"engaged_count_all\": teeth of both lobes that carry load"},
       {good_sensitivity, "method = \"morris\"", "method = \"sobol\"",
        "study.toml:14:11: sensitivity.samples: must be a power of two, at least 8, is 10"},
       {good_sensitivity, "levels = 6", "levels = 5",

@@ -61,9 +61,26 @@ TEST(SampledGear, OtherDiscsClearanceAndTorqueAreTheForwardModelsGears) {
     const double moved_um = 1e3 * std::abs(sample[0] - 0.2);
     EXPECT_NEAR(rows(0, "rotation_rad"), load.rotation_rad, (1e-5 + 1e-4 * moved_um) * load.rotation_rad);
     EXPECT_NEAR(rows(0, "peak_force_n"), load.peak_force_n, (1e-5 + 6e-3 * moved_um) * load.peak_force_n);
-    EXPECT_EQ(rows(0, "engaged_count"), 2 * load.engaged_count);
-    EXPECT_NEAR(rows(0, "min_backlash_um"), least(exact.backlash->backlash_um), 1e-3);
+    EXPECT_EQ(rows(0, "engaged_count_all"), 2 * load.engaged_count);
+    EXPECT_NEAR(rows(0, "min_tooth_backlash_um"), least(exact.backlash->backlash_um), 1e-3);
     EXPECT_NEAR(rows(0, "lobe_share"), 0.5, 1e-9);
+  }
+}
+
+TEST(SampledGear, OneNameHasOneMeaning) {
+  std::size_t shared = 0;
+  for (const Response& sampled : sampled_responses()) {
+    const auto analysed = find_response(gear_responses(), sampled.name);
+    if (!analysed)
+      continue;
+    ++shared;
+    EXPECT_EQ(sampled.unit, gear_responses()[*analysed].unit) << sampled.name;
+    EXPECT_EQ(sampled.sentence, gear_responses()[*analysed].sentence) << sampled.name;
+  }
+  EXPECT_GE(shared, 6u);
+  for (const auto& counterpart : sampled_counterparts()) {
+    EXPECT_TRUE(find_response(gear_responses(), counterpart.name)) << counterpart.name;
+    EXPECT_FALSE(find_response(sampled_responses(), counterpart.name)) << counterpart.name;
   }
 }
 
@@ -92,8 +109,8 @@ TEST(SampledGear, WorstPositionIsTheWorstOfItsPositions) {
   bool elsewhere = false;
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_GE(worst(k, "peak_force_n"), first(k, "peak_force_n"));
-    EXPECT_LE(worst(k, "min_backlash_um"), first(k, "min_backlash_um"));
-    EXPECT_LE(worst(k, "engaged_count"), first(k, "engaged_count"));
+    EXPECT_LE(worst(k, "min_tooth_backlash_um"), first(k, "min_tooth_backlash_um"));
+    EXPECT_LE(worst(k, "engaged_count_all"), first(k, "engaged_count_all"));
     elsewhere = elsewhere || worst(k, "peak_force_n") > first(k, "peak_force_n");
   }
   EXPECT_TRUE(elsewhere);
@@ -109,7 +126,7 @@ TEST(SampledGear, WorstPositionIsTheWorstOfItsPositions) {
   turned[sources[3].first + 1] = y * std::cos(space) - x * std::sin(space);
   const Rows by_hand = evaluate(*one, turned);
   EXPECT_GE(worst(0, "peak_force_n"), by_hand(0, "peak_force_n") * (1.0 - 1e-9));
-  EXPECT_LE(worst(0, "min_backlash_um"), by_hand(0, "min_backlash_um") + 1e-9);
+  EXPECT_LE(worst(0, "min_tooth_backlash_um"), by_hand(0, "min_tooth_backlash_um") + 1e-9);
 }
 
 TEST(SampledGear, ACoastFlankThatTouchesIsNoResult) {
