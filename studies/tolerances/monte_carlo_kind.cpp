@@ -111,6 +111,8 @@ private:
   void check_recorded(const std::string& key, const std::string& name) {
     checker_.check_name(key, name, sampled_response_names(), "output", sampled_counterparts());
     const auto& recorded = part_.sampling.outputs;
+    if (!find_response(sampled_responses(), name))
+      return; // said already
     if (checker_.given(key) && !recorded.empty() &&
         std::find(recorded.begin(), recorded.end(), name) == recorded.end())
       checker_.fault(key, fmt::format("{} is not among sampling.outputs", name));
