@@ -1,6 +1,6 @@
 // Example 5: a better flank.
 //
-//     minimise    largest meshing force at 7 N·m
+//     minimise    largest meshing force at 7 N·m, the worst of four meshing phases
 //     over        tip relief and root relief of the flexspline, 0 … 15 µm
 //     subject to  secant stiffness ≥ 95 % of what it was,  least backlash ≥ 0
 //
